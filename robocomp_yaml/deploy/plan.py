@@ -91,9 +91,7 @@ def ill(running: Running, where: Span) -> Diagnostic | None:
     if running.state != RUNNING or not running.not_alive:
         return None
     again = typed("rcyaml", "deploy", "restart", *([shown_path(where.file)] if where.file else []), running.name)
-    return deploying.NOT_ALIVE.at(
-        where, name=running.name, why=running.not_alive, hint=f"`{again}` starts it again"
-    )  # fmt: skip
+    return deploying.NOT_ALIVE.at(where, name=running.name, why=running.not_alive, hint=f"`{again}` starts it again")
 
 
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:

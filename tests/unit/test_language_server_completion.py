@@ -82,6 +82,7 @@ def test_what_is_offered(file: str, marked: str, expected: list[str], end: str) 
         ("  - speed < |", (13, 13), {"speed", "camera", "camera.width", "len"}),
         ("  - sp| < 3", (5, 7), {"speed", "camera", "camera.width", "all"}),
         ("  - {that: speed-ca|, else: no}", (18, 20), {"speed", "camera.width"}),
+        ("  - sp|eed/2-1 < 3", (5, 10), {"speed"}),
         ('  - {that: "speed < 3 and camera.w|", else: no}', (27, 35), {"camera.width"}),
         ("  - that: all(j.|", (15, 17), {"j.n"}),
     ],

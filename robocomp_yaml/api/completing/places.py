@@ -13,7 +13,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
 MARK = "rcyaml0cursor"
 _BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
-_OPERAND = re.compile(r"[\w.]*\Z")
+_OPERAND, _OPERAND_BEHIND = re.compile(r"[\w.]*\Z"), re.compile(r"[\w.]*")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
 _PIECE = re.compile(
@@ -46,11 +46,11 @@ class TypedPlace(msgspec.Struct, frozen=True):
 
     @property
     def is_in_expression(self) -> bool:
-        return not self.is_key and _is_expression(self.keys)
+        return _is_expression(self.keys, self.is_key)
 
 
-def _is_expression(keys: tuple[str, ...]) -> bool:
-    return keys in (("constraints", ""), ("constraints", "", "that"))
+def _is_expression(keys: tuple[str, ...], is_key: bool) -> bool:
+    return not is_key and keys in (("constraints", ""), ("constraints", "", "that"))
 
 
 def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
@@ -84,9 +84,10 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
             is_key = is_key or (not own.strip() and steps[-1:] != ("",))
             start, size = begin.start() - starts[line - 1] + 1, end.end() - begin.start()
             stop = start + size
-            if _is_expression(steps) and not is_key:
-                operand = _OPERAND.search(text, starts[line - 1], index)
-                start = operand.start() - starts[line - 1] + 1 if operand else start
+            if _is_expression(steps, is_key):  # `-` and `/` are operators there
+                head, tail = _OPERAND.search(text, starts[line - 1], index), _OPERAND_BEHIND.match(text, index)
+                assert head is not None and tail is not None
+                start, stop = head.start() - starts[line - 1] + 1, tail.end() - starts[line - 1] + 1
             elif node.lexeme != MARK:
                 start = node.span.column + node.quoted
                 stop = node.span.end_column - node.quoted - len(MARK) + size

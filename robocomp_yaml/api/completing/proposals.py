@@ -47,18 +47,19 @@ _OF_TYPES = ("struct", "sequence", "map", "in", "out", "returns", "type")
 
 
 def proposals(
-    path: str, place: TypedPlace, known: Names, importable: Collection[str], program: Program | None = None, *,
+    path: str, place: TypedPlace, known: Names, importable: Iterable[str], program: Program | None = None, *,
     with_schema: bool = False,
 ) -> list[Proposal]:  # fmt: skip
     """What can stand at a place of a document, each once. `with_schema`: also what its schema says."""
     found: Iterator[Proposal] = iter(())
     kind = kind_at(path)
     present = _siblings(place)
+    modules = dict.fromkeys(importable)  # in their order, and looked up for each name
     match kind:
         case "idsl":
-            found = _in_interfaces(path, place, known, importable)
+            found = _in_interfaces(path, place, known, modules)
         case "cdsl":
-            found = chain(_in_component(path, place, known, importable), machines.proposals(place))
+            found = chain(_in_component(path, place, known, modules), machines.proposals(place))
         case "pdsl":
             found = chain(
                 _in_parameters(place, known),
@@ -257,8 +258,9 @@ def _imports(path: str, place: TypedPlace, known: Names, importable: Collection[
 def _as_import(one: DefinedName, path: str, importable: Collection[str]) -> str:
     """How a document imports the module that defines a name."""
     stem = _stem(one)
-    far = os.path.relpath(one.span.file, os.path.dirname(path)).removesuffix(_SUFFIX)
-    return stem if stem in importable else far
+    if stem in importable:
+        return stem
+    return os.path.relpath(one.span.file, os.path.dirname(path)).removesuffix(_SUFFIX)
 
 
 def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:

@@ -60,8 +60,12 @@ def succeed_guard(files: GridFiles) -> None:
 
 def _registry_program(files: GridFiles) -> list[str]:
     """The folder and the command that the registry's guard is given."""
-    own = files.registry_folder
-    return [own, "icegridregistry", config_option(f"{own}/settings")]
+    return [files.registry_folder, "icegridregistry", _option(files.registry_folder)]
+
+
+def _option(folder: str) -> str:
+    """The option with which the daemon of this folder reads its settings."""
+    return config_option(f"{folder}/settings")
 
 
 def start_detached(command: Sequence[str], folder: str, **environment: str) -> int:
@@ -88,7 +92,7 @@ def kill(folder: str) -> None:
 
 def end_hung(folder: str) -> None:
     """Kills the daemon of this folder, which does not answer. Its guard starts it again."""
-    _signal(folder, "program", config_option(f"{folder}/settings"), signal.SIGKILL)
+    _signal(folder, "program", _option(folder), signal.SIGKILL)
 
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
@@ -124,7 +128,7 @@ def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkH
     facts = {
         "folder": files.on(host.name).folder,
         "host": host.name,
-        "config": config_option(f"{files.on(host.name).root}/nodes/{host.name}/settings"),
+        "config": _option(f"{files.on(host.name).root}/nodes/{host.name}"),
         "owner": f"{who} {files.folder}, registry {registry.address}:{registry.port}",
         "certificate": _text(files.certificate),
         "key": _text(files.key),
