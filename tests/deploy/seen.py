@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
+import pytest
 from click.testing import Result
 
 from processes import answers, until
@@ -13,6 +15,9 @@ from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, STOPPED
 
 Told = TypeVar("Told")
+NEEDS_ICEGRID = pytest.mark.skipif(
+    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
+)
 _PATIENCE = 20.0  # seconds: between the question and the look at /proc, a process may start or end
 
 
@@ -40,6 +45,11 @@ def status(
     found = agreed(folder, ask, states)
     assert not is_ice or have_answered(found), found
     return found
+
+
+def all_ends(folder: str) -> None:
+    """Waits until no process of the deployment in a folder is left, nor anything that supervises it."""
+    until(lambda: not procfs.marked(folder), lambda: str([*map(procfs.command, procfs.marked(folder))]))
 
 
 def states(status: Mapping[str, Mapping[str, Any]]) -> dict[str, tuple[str, int]]:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import shutil
-
 import pytest
 
 from conftest import write_tree
-from processes import until
-from robocomp_yaml.deploy.local import procfs
-from seen import programs
+from seen import NEEDS_ICEGRID, all_ends, programs
 from small_networks import Place
 from test_roles import Rcyaml
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is missing (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 DOCUMENT = """\
 deployment: Robot
@@ -43,7 +39,7 @@ def test_another_one_is_refused_until_down(
     assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0 and not programs(place.folder, "base")
     assert rcyaml("deploy", "up", "--engine", second).exit_code == 0 and len(programs(place.folder, "base")) == 1
     assert rcyaml("deploy", "down").exit_code == 0
-    until(lambda: not procfs.marked(place.folder), "all has ended")
+    all_ends(place.folder)
 
 
 def test_a_host_that_is_added_while_it_runs(place: Place, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:

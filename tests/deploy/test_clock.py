@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -19,7 +18,7 @@ import pytest
 
 from conftest import in_long, write_tree
 from processes import Running, until
-from seen import agreed, states
+from seen import NEEDS_ICEGRID, agreed, states
 from shifted_clock import Clock, make_clock
 from small_networks import Place
 
@@ -33,8 +32,7 @@ components:
 pytestmark = pytest.mark.slow
 ENGINES = [
     "local",
-    pytest.param("icegrid", marks=pytest.mark.skipif(
-        shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)")),
+    pytest.param("icegrid", marks=NEEDS_ICEGRID),
 ]  # fmt: skip
 
 

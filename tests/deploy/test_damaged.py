@@ -13,8 +13,7 @@ import pytest
 from conftest import write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy import registered
-from robocomp_yaml.deploy.local import procfs
-from seen import programs
+from seen import NEEDS_ICEGRID, all_ends, programs
 from small_networks import Place
 from test_roles import Rcyaml
 
@@ -35,9 +34,7 @@ KEPT = (".pem", "/run", "/guard", "/watch", "/lock", "/settings")  # what others
             "icegrid",
             marks=[
                 pytest.mark.slow,
-                pytest.mark.skipif(
-                    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
-                ),
+                NEEDS_ICEGRID,
             ],
         ),
     ]
@@ -80,7 +77,7 @@ def test_each_file(place: Place, rcyaml: Rcyaml, robot: tuple[str, ...]) -> None
     assert rcyaml("deploy", "status", *robot).exit_code in (0, 1)
     assert (programs(place.folder, "base"), programs(place.folder, "arm")) == before
     assert rcyaml("deploy", "down", *robot).exit_code == 0
-    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+    all_ends(place.folder)
 
 
 def test_an_up_without_its_folder(place: Place, rcyaml: Rcyaml, robot: tuple[str, ...]) -> None:
@@ -93,4 +90,4 @@ def test_an_up_without_its_folder(place: Place, rcyaml: Rcyaml, robot: tuple[str
     assert b"A=1" in Path(f"/proc/{base}/environ").read_bytes().split(b"\0")
     assert os.path.exists(f"{place.folder}/logs/base.log")
     assert rcyaml("deploy", "down", *robot).exit_code == 0
-    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+    all_ends(place.folder)

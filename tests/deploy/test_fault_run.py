@@ -17,12 +17,10 @@ import pytest
 from fault_network import Fault, FaultNetwork, Turn, check, fault_network
 from processes import until
 from robocomp_yaml.deploy.local import procfs
+from seen import NEEDS_ICEGRID
 from three_hosts import NAMES
 
 pytestmark = pytest.mark.slow
-needs_icegrid = pytest.mark.skipif(
-    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
-)
 NUMBER = int(os.environ.get("RCYAML_FAULT_COMPONENTS") or 6)
 IS_LONG = NUMBER >= 30
 BINDER = """\
@@ -355,7 +353,7 @@ def test_one_machine(tmp_path: Path) -> None:
         until(lambda: not any(run.talk.copies(name) for name in run.entries), "nothing is left")
 
 
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_three_hosts(run_root: Path) -> None:
     try:
         with fault_network(run_root, NUMBER) as run:

@@ -4,7 +4,6 @@ network are the same ones afterwards, as their pids say."""
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,13 +13,10 @@ import pytest
 from conftest import write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy.local import procfs
-from seen import programs
+from seen import NEEDS_ICEGRID, all_ends, programs
 from small_networks import Place, is_alive, sleeper
 from test_roles import Rcyaml
 
-needs_icegrid = pytest.mark.skipif(
-    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
-)
 DOCUMENT = """\
 deployment: Robot
 components:
@@ -134,7 +130,7 @@ def is_program(name: str) -> Callable[[list[str], int], bool]:
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -157,7 +153,7 @@ def test_what_supervises_with_icegrid_goes_on(
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, rcyaml: Rcyaml, grid: str) -> None:
     before = programs(place.folder, "base"), programs(place.folder, "arm")
     for command in ("status", "up"):
@@ -181,7 +177,7 @@ def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, r
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_what_keeps_watch_is_started_again(place: Place, grid: str) -> None:
     for _ in range(2):
         (helper,) = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
@@ -198,7 +194,7 @@ def test_what_keeps_watch_is_started_again(place: Place, grid: str) -> None:
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_a_killed_guard_of_a_node_has_a_successor(place: Place, rcyaml: Rcyaml, grid: str) -> None:
     """Which is no parent of the node, and guards it all the same."""
     before = programs(place.folder, "base"), programs(place.folder, "arm")
@@ -219,11 +215,11 @@ def test_a_killed_guard_of_a_node_has_a_successor(place: Place, rcyaml: Rcyaml, 
     assert not {*programs(place.folder, "base")} & {*before[0]}
     os.kill(guard(), signal.SIGKILL)
     assert rcyaml("deploy", "down", grid).exit_code == 0
-    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+    all_ends(place.folder)
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_a_killed_guard_of_the_registry_has_a_successor(place: Place, rcyaml: Rcyaml, grid: str) -> None:
     registry = Path(place.folder, "state/icegrid/registry")
 
@@ -240,11 +236,11 @@ def test_a_killed_guard_of_the_registry_has_a_successor(place: Place, rcyaml: Rc
     assert rcyaml("deploy", "status", grid).exit_code == 0
     os.kill(guard(), signal.SIGKILL)
     assert rcyaml("deploy", "down", grid).exit_code == 0
-    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+    all_ends(place.folder)
 
 
 @pytest.mark.slow
-@needs_icegrid
+@NEEDS_ICEGRID
 def test_a_program_that_nobody_asks_is_told_with_icegrid(place: Place, rcyaml: Rcyaml, grid: str) -> None:
     (pid,) = programs(place.folder, "base")
     halt(pid)

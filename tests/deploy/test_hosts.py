@@ -15,6 +15,7 @@ import pytest
 
 from conftest import write_tree
 from processes import kill_left, until
+from seen import NEEDS_ICEGRID
 from ssh_host import NEEDS_SSHD, ssh_host
 from three_hosts import Deployment, three_hosts
 
@@ -49,7 +50,7 @@ pytestmark = [
     pytest.mark.slow,
     NEEDS_SSHD,
     pytest.mark.skipif(shutil.which("rsync") is None, reason="there is no rsync (Debian: rsync)"),
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 

@@ -4,23 +4,22 @@ other engine is in test_nothing_is_left.py."""
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from conftest import write_tree
-from processes import hanging, kill_left, until
+from processes import hanging, kill_left
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.local import procfs
-from seen import status
+from seen import NEEDS_ICEGRID, all_ends, status
 from small_networks import Place, is_alive
 from test_roles import Rcyaml
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 DOCUMENT = """\
 deployment: Robot
@@ -66,7 +65,7 @@ def test_the_registry_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:
     with hanging(daemon(place, "icegridregistry")):
         down = rcyaml("deploy", "down", robot)
     assert down.exit_code == 0 and "base  stopped" in down.stdout and "arm   stopped" in down.stdout, down.output
-    until(lambda: not procfs.marked(place.folder), lambda: str(procfs.marked(place.folder)))
+    all_ends(place.folder)
 
 
 def test_the_node_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:
@@ -80,4 +79,4 @@ def test_the_node_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:
     with hanging(daemon(place, "icegridnode")):
         down = rcyaml("deploy", "down", robot)
     assert down.exit_code == 0 and "base  stopped" in down.stdout and "arm   stopped" in down.stdout, down.output
-    until(lambda: not procfs.marked(place.folder), lambda: str(procfs.marked(place.folder)))
+    all_ends(place.folder)

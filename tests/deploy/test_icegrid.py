@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import time
 from collections.abc import Iterator
@@ -15,11 +14,12 @@ import pytest
 
 from processes import until
 from robocomp_yaml.deploy.local import procfs
+from seen import NEEDS_ICEGRID
 from three_hosts import Deployment, talking_head
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 WORDS = "module: RoboCompWords\ntopics:\n  Words: {methods: {word: {in: {number: int}}}}\n"

@@ -4,7 +4,6 @@ over."""
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,12 +13,13 @@ import pytest
 
 from conftest import write_tree
 from processes import Ports, until
+from seen import NEEDS_ICEGRID
 from small_networks import LISTEN
 from three_hosts import Deployment, three_hosts
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 HEAD = """\
 deployment: Talk

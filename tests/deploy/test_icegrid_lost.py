@@ -10,11 +10,12 @@ import pytest
 
 from processes import hanging, until
 from robocomp_yaml.deploy.local import procfs
+from seen import NEEDS_ICEGRID
 from three_hosts import Deployment, talking
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 NETWORK = """\

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from processes import until
+from seen import NEEDS_ICEGRID
 from small_networks import is_alive
 from three_hosts import Deployment, talking_head
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 NETWORK = """\

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ import pytest
 
 from conftest import write_tree
 from processes import until
+from seen import NEEDS_ICEGRID
 from three_hosts import Deployment, three_hosts
 
 SSHD = "/usr/sbin/sshd"
@@ -28,7 +28,7 @@ components:
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not os.path.exists(SSHD), reason="there is no sshd (Debian: openssh-server)"),
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 

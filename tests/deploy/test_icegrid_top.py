@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import signal
 import subprocess
 from collections.abc import Callable, Iterator
@@ -13,12 +12,13 @@ from typing import Any
 import pytest
 
 from robocomp_yaml.deploy.local import procfs
+from seen import NEEDS_ICEGRID
 from terminals import COMMAND
 from three_hosts import Deployment, talking
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 NETWORK = """\
 deployment: Talk

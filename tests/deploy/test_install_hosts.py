@@ -4,7 +4,6 @@ boots late, and after a power cut of all hosts nothing but systemd starts it. Wi
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 from booted import Machine, need_systemd
 from conftest import in_long, write_tree
 from processes import kill_left, until
+from seen import NEEDS_ICEGRID
 from ssh_host import NEEDS_SSHD, SshHost, prepared, ssh_host
 from three_hosts import three_hosts
 
@@ -29,7 +29,7 @@ components:
 pytestmark = [
     pytest.mark.slow,
     NEEDS_SSHD,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,11 +14,12 @@ import pytest
 from conftest import write_tree
 from processes import Ports, until
 from robocomp_yaml.deploy.interfaces import address_of, known, with_address
+from seen import NEEDS_ICEGRID
 from three_hosts import Deployment, three_hosts
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
     pytest.mark.skipif(os.geteuid() != 0, reason="only root adds interfaces"),
 ]
 DOCUMENTS = {

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -19,13 +18,14 @@ from typing import Any
 import pytest
 
 from conftest import write_tree
+from seen import NEEDS_ICEGRID
 from three_hosts import Deployment, three_hosts
 
 pytest.importorskip("starlette", reason="pip install rcyaml[manager]")
 pytest.importorskip("uvicorn", reason="pip install rcyaml[manager]")
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 NETWORK = """\
 deployment: Talk

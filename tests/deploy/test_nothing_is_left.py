@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 import stat
 from collections.abc import Callable, Iterator
@@ -15,6 +14,7 @@ from conftest import write_tree
 from processes import hanging, kill_left, until
 from robocomp_yaml.deploy import protection, registered
 from robocomp_yaml.deploy.local import client, procfs
+from seen import NEEDS_ICEGRID
 from small_networks import Place, is_alive
 from test_roles import Rcyaml
 
@@ -173,7 +173,7 @@ def test_down_of_one_name_keeps_what_a_rollback_needs(place: Place, rcyaml: Rcya
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)")
+@NEEDS_ICEGRID
 def test_with_icegrid_after_a_power_cut_of_this_machine(
     place: Place, rcyaml: Rcyaml, robot: Callable[..., str], tmp_path: Path
 ) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,13 +9,12 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
-from processes import Ports, kill_left, until
-from robocomp_yaml.deploy.local import procfs
-from seen import programs
+from processes import Ports, kill_left
+from seen import NEEDS_ICEGRID, all_ends, programs
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is missing (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
 ]
 DOCUMENT = """\
 deployment: Robot
@@ -43,6 +41,6 @@ def test_deployments_run_there(
             assert len(programs(folder, "base")) == len(programs(folder, "storm")) == 1
             assert rcyaml("deploy", "status", document).exit_code == 0
             assert rcyaml("deploy", "down", document).exit_code == 0
-            until(lambda: not procfs.marked(folder), "all has ended")
+            all_ends(folder)
     finally:
         kill_left(folder)

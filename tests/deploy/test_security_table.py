@@ -23,12 +23,13 @@ import control_client
 from conftest import ROOT
 from processes import until
 from robocomp_yaml.deploy.authority import properties
+from seen import NEEDS_ICEGRID
 from test_icegrid import HEARER, TELLER, WORDS
 from three_hosts import Deployment, talking_head
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+    NEEDS_ICEGRID,
     pytest.mark.skipif(os.geteuid() != 0, reason="only root becomes another user, and joins network namespaces"),
 ]
 
