@@ -295,13 +295,11 @@ def test_without_a_server_of_schemas_keys_and_values_of_the_schema_are_offered_t
 
 
 def test_codes_are_offered_behind_allow() -> None:
-    text = "component: X\ntypes: {Mode: {enum: [x, y]}}\nparameters: {a: {type: int}}\n"
-    found = analysed({"a.pdsl.yaml": text}, "a.pdsl.yaml").diagnostics
-    line = "types: {Mode: {enum: [x, y]}}  # rcyaml: allow RC"
+    found = analysed({"a.idsl.yaml": "module: M\nimports: [Nothing]\n"}, "a.idsl.yaml").diagnostics
+    line = "imports: [Nothing]  # rcyaml: allow RC"
     column, codes = codes_at(line, len(line) + 1, found, 2) or (0, [])
-    assert line[column - 1 :] == "RC" and codes[0].text == "RC3107" and codes[0].doc == "reported here"
-    assert len(codes) > 50 and len({one.text for one in codes}) == len(codes)
-    assert {"RC0202", "RC0001"}.isdisjoint(one.text for one in codes), "errors cannot be allowed"
+    assert line[column - 1 :] == "RC" and codes[0].text == found[0].code and codes[0].doc == "reported here"
+    assert len(codes) > 200 and len({one.text for one in codes}) == len(codes)
     assert codes_at("# rcyaml: allow RC1010, ", 25, (), 1) is not None
     assert codes_at("# allow RC", 11, (), 1) is None and codes_at("a: # rcyaml: guessed x", 23, (), 1) is None
     start, verbs = codes_at("a: 1  # rcyaml: al", 19, (), 1) or (0, [])

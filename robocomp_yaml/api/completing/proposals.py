@@ -19,7 +19,7 @@ from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.schemas import names_offered
 from robocomp_yaml.check.pdsl.values import port_names
 from robocomp_yaml.diag.codes import table
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, Edit
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, Program
@@ -235,7 +235,6 @@ def codes_at(line: str, column: int, found: Iterable[Diagnostic], number: int) -
         return None
     here = {one.code: one.message for one in found if one.span.line in (number, number + 1)}
     known = {**here, **{id_: code.message for id_, code in table().items() if id_ not in here}}
-    known = {id_: text for id_, text in known.items() if table()[id_].severity != ERROR}  # errors cannot be allowed
     made = [Proposal(id_, CODE, text, "reported here" if id_ in here else "") for id_, text in known.items()]
     return typed.start("code") + 1, made
 
