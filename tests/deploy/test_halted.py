@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from conftest import write_tree
-from processes import kill_left, until
+from processes import kill_left, killed_on_failure, until
+from robocomp_yaml import resources
 from robocomp_yaml.deploy.local import procfs
 from seen import NEEDS_ICEGRID, all_ends, programs
 from small_networks import Place, is_alive, sleeper
@@ -237,6 +240,37 @@ def test_a_killed_guard_of_the_registry_has_a_successor(place: Place, rcyaml: Rc
     os.kill(guard(), signal.SIGKILL)
     assert rcyaml("deploy", "down", grid).exit_code == 0
     all_ends(place.folder)
+
+
+def test_a_successor_leaves_it_to_a_guard_that_was_started_before_it_could(tmp_path: Path) -> None:
+    """As when a node is started by hand whose guard and program were killed."""
+    script = tmp_path / "guard"
+    script.write_text(resources.text("templates/icegrid/guard"))
+
+    def start(*words: str) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(["bash", script, *words, tmp_path, "sleep", "600"], start_new_session=True)
+
+    def told(file: str) -> int | None:
+        path = tmp_path / file
+        return int(path.read_text() or 0) or None if path.exists() else None
+
+    with ExitStack() as stack:
+        stack.callback(lambda: [os.kill(pid, signal.SIGKILL) for pid in [told("program")] if pid])
+        first = stack.enter_context(killed_on_failure(start()))
+        program = until(lambda: told("program"), "a program")
+        first.kill()
+        first.wait()
+        successor = stack.enter_context(killed_on_failure(start("--watch", "killed")))
+        until(lambda: told("pid") == successor.pid, "a successor")
+        halt(successor.pid)
+        os.kill(program, signal.SIGKILL)
+        second = stack.enter_context(killed_on_failure(start()))
+        until(lambda: told("pid") == second.pid and told("program") not in (None, program), "another program")
+        successor.send_signal(signal.SIGCONT)
+        assert successor.wait(timeout=20) == 0
+        assert told("pid") == second.pid and is_alive(told("program"))
+        second.terminate()
+        assert second.wait(timeout=20) == 0 and not (tmp_path / "pid").exists()
 
 
 @pytest.mark.slow

@@ -236,6 +236,8 @@ class Deployment:
         guard = str(self.state / which / "guard")
         helpers = [pid for pid in procfs.marked(self.folder) if procfs.command(pid)[1:3] == [guard, "--watch"]]
         known = [int((self.state / which / file).read_text()) for file in ("pid", "program")]
+        if for_good:
+            os.kill(known[0], signal.SIGSTOP)  # else it could start a helper again
         for pid in [*helpers, *known] if for_good else known[1:]:
             os.kill(pid, signal.SIGKILL)
 
