@@ -31,18 +31,20 @@ _COMPONENT = pattern(r"(?m)^component:[ \t]*[\"']?(\w+)")
 
 
 class DeploymentDocuments(msgspec.Struct):
-    """Follows deployments to the documents that they name, and links them."""
+    """Follows deployments to the documents that they name, and links them. `disk` records what is requested to follow
+    them: what other documents depend on has none of it."""
 
     documents: Documents
     tables: Tables
     root_of: Callable[[str], str]
+    disk: Disk
     diagnostics: list[Diagnostic] = []
     used: dict[UsedValues, None] = {}
     models: dict[str, Deployment] = {}
 
     def follow(self, document: Document) -> Sequence[NamedDocument]:
         """The documents that a deployment names."""
-        model, disk, memory = document.model, self.documents.disk, self.documents.memory
+        model, memory = document.model, self.documents.memory
         root = self.root_of(document.path)
         assert isinstance(model, Deployment)
         self.models[document.real] = model
@@ -51,7 +53,7 @@ class DeploymentDocuments(msgspec.Struct):
             found = _NamedByDeployment(model, disk, root)  # not of this run: other deployments may name the same
             return list(found.run()), found.used, found.diagnostics
 
-        named, used, diagnostics = recalled(memory, disk, ("named", document.real), (model, root), make)
+        named, used, diagnostics = recalled(memory, self.disk, ("named", document.real), (model, root), make)
         self.used |= used
         self.diagnostics += diagnostics
         return named
@@ -59,6 +61,7 @@ class DeploymentDocuments(msgspec.Struct):
     def join(self) -> None:
         """Links each deployment with what it includes, after all other documents are linked."""
         disk = self.documents.disk
+        disk.recall(self.disk.record())
         large = too_large(self.models, disk)
         self.diagnostics += [fault for fault in large.values() if fault is not None]
         usable = {real: model for real, model in self.models.items() if real not in large}

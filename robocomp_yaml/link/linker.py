@@ -82,7 +82,9 @@ class Linker(msgspec.Struct):
             if self._deployments is None:
                 from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
 
-                self._deployments = DeploymentDocuments(self.documents, self.tables, self._root_of, self.diagnostics)
+                self._deployments = DeploymentDocuments(
+                    self.documents, self.tables, self._root_of, self.documents.disk.apart(), self.diagnostics
+                )
             for one in self._deployments.follow(document):
                 if is_deployment(one.path):
                     deployments.append(self.documents.get(one.path))
