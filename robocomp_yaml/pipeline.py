@@ -36,7 +36,6 @@ from robocomp_yaml.link.workspace import ImportSearch, Workspaces
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.secrets import KINDS
-from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover, reads_again
 from robocomp_yaml.source.disk import Disk, DiskRecord, Files
 from robocomp_yaml.source.file_names import is_deployment
@@ -45,6 +44,7 @@ from robocomp_yaml.source.spelled import DocumentTexts, spelled
 if TYPE_CHECKING:
     from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.network.network import Network
+    from robocomp_yaml.source.allowances import Allowance
 
 
 class Analysis(msgspec.Struct, frozen=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -11,8 +12,10 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.plugins import Plugins
-from robocomp_yaml.source.allowances import OURS, Allowance, allowances
 from robocomp_yaml.source.spelled import DocumentText, DocumentTexts
+
+if TYPE_CHECKING:
+    from robocomp_yaml.source.allowances import Allowance
 
 _ABOUT_ALLOWANCES = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
@@ -37,6 +40,8 @@ class Allowances(msgspec.Struct, frozen=True):
         """The allowances in the YAML documents at these paths; `plugins_of` returns the plug-ins of a workspace."""
         by_file, faults, with_comments = {}, [], {}
         for path in paths:
+            from robocomp_yaml.source.allowances import allowances  # few documents have any
+
             if (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
@@ -76,7 +81,12 @@ class Allowances(msgspec.Struct, frozen=True):
 
 def commented_in(contents: Mapping[str, bytes]) -> list[str]:
     """The paths of the YAML documents that may have such comments."""
-    return [path for path, raw in contents.items() if path.endswith(".yaml") and OURS.search(raw)]
+    paths = [path for path, raw in contents.items() if path.endswith(".yaml") and b"rcyaml" in raw.lower()]
+    if not paths:
+        return []
+    from robocomp_yaml.source.allowances import OURS
+
+    return [path for path in paths if OURS.search(contents[path])]
 
 
 def _of_errors(errors: Iterable[Allowance]) -> Iterator[Diagnostic]:

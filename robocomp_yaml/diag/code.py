@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, as_facts
 from robocomp_yaml.diag.fix import Fix, Hint
-from robocomp_yaml.diag.page import Files, PageEntry
-from robocomp_yaml.diag.page import page as read_page
 from robocomp_yaml.diag.span import Span
+
+if TYPE_CHECKING:
+    from robocomp_yaml.diag.page import Files, Page, PageEntry
+
+
+def _page(name: str) -> Page:
+    from robocomp_yaml.diag.page import page  # most runs report nothing
+
+    return page(name)
 
 
 class _CapitalNames(dict[str, str]):
@@ -26,16 +34,16 @@ class Code(msgspec.Struct, frozen=True):
 
     @property
     def severity(self) -> str:
-        return read_page(self.page).severities[self.id]
+        return _page(self.page).severities[self.id]
 
     @property
     def message(self) -> str:
         """A format string for the facts that are passed to `at`."""
-        return read_page(self.page).messages[self.id]
+        return _page(self.page).messages[self.id]
 
     @property
     def entry(self) -> PageEntry:
-        return read_page(self.page).entry(self.id)
+        return _page(self.page).entry(self.id)
 
     @property
     def why(self) -> str:
