@@ -56,8 +56,10 @@ def stage(folder: str, files: Mapping[str, str]) -> None:
     """Writes files beside those that are used, and verifies them. Raises OSError; then none is there."""
     drop_staged(folder)
     try:
+        for above in {os.path.dirname(path) for path in files}:
+            os.makedirs(f"{folder}/{STAGED}/{above}", mode=0o700, exist_ok=True)
         for path, text in files.items():
-            write(folder, f"{STAGED}/{path}", text)
+            whole_file.stage(f"{folder}/{STAGED}/{path}", _bytes(text), 0o600)
         for path, text in files.items():
             with open(f"{folder}/{STAGED}/{path}", "rb") as file:
                 if file.read() != _bytes(text):
