@@ -25,6 +25,8 @@ EARLIER = {
 }  # fmt: skip
 """What earlier versions of rcyaml wrote in every first `etc/config`: defaults of Ice, and of the run time of today."""
 
+_ADDRESS = pattern(r"\.Endpoints\Z|Proxy\Z")
+
 _HEAD = pattern(rf"# Configuration of [^\n]*({re.escape(FIRST_HEAD)}|{re.escape(VALUES_HEAD)})")
 
 
@@ -42,8 +44,13 @@ class FlatConfig(msgspec.Struct, frozen=True):
     is_unchanged: bool = False
 
     def is_as_written(self, key: str) -> bool:
-        """Whether a property is still as rcyaml wrote it."""
-        return key in self.properties and self.base.get(key) == self.properties[key]
+        """Whether a property is still as rcyaml wrote it. The interface of an address may have been renamed."""
+        if key not in self.properties:
+            return False
+        if key not in self.base and (kind := _ADDRESS.search(key)):
+            former = (other for other in self.base if other.endswith(kind[0]) and other not in self.properties)
+            return any(self.base[other] == self.properties[key] for other in former)
+        return self.base.get(key) == self.properties[key]
 
 
 def flat_config(folder: str, disk: Disk) -> FlatConfig | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -94,6 +95,24 @@ def test_a_renamed_interface_takes_the_identities_in_proxies_along(
     robot = (ws / "robot.ddsl.yaml").read_text()
     assert f"connect: {{Limb: '{remote.replace('arm', 'limb')}'}}" in robot
     assert "connect: {Limb: arm}" in robot, "an entry has a name of its own"
+
+
+@pytest.mark.parametrize("entry", ["arm: {component: arm}", "arm{i}: {component: arm, instances: 2}"])
+def test_the_ports_of_a_first_config_stay_those_that_nobody_chose(
+    ws: Path, rcyaml: Callable[..., Result], entry: str
+) -> None:
+    (ws / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n  {entry}\n")
+    for unused in ("arm.mock.yaml", "arm/src/specificworker.py"):
+        (ws / unused).unlink()
+    for old, new in (("Arm", "Limb"), ("Limb", "Arm")):
+        assert rcyaml("compile", "arm").exit_code == 0
+        ran = rcyaml("rename", f"interface:{old}", new)
+        assert ran.exit_code == 0, ran.output
+        assert f"{new}.Endpoints=" in (ws / "arm/etc/config").read_text()
+        assert "nothing wrong" in rcyaml("check").output
+    first = (ws / "arm/etc/config").read_text()
+    (ws / "arm/etc/config").write_text(re.sub(r"(Arm.Endpoints=tcp -p )\d+", r"\g<1>12345", first))
+    assert rcyaml("check").exit_code == ("instances" in entry), "instances cannot share a port that somebody chose"
 
 
 @pytest.mark.parametrize(
