@@ -211,6 +211,8 @@ def test_names_are_offered_once_and_a_list_with_its_brackets() -> None:
         ("mode: '|'", ["slow", "fast"], ""), ('mode: "sl|', ["slow", "fast"], "sl"), ("mode: a b|", ["slow", "fast"], "a b"),
         ("mode: 'a |c'", ["slow", "fast"], "a c"), ("wheels: [{|}]", ["size: "], ""), ("wheels:\n  - |", ["size: "], ""),
         ("wheels:\n  - si|", ["size: "], "si"), ("wheels: [{size: |", ["3", "5"], ""), ("camera.|", ["camera.width: "], "camera."),
+        ("'wheels[0].|'", ["wheels[0].size"], "wheels[0]."), ("{\"wheels[1].s|", ["wheels[1].size"], "wheels[1].s"),
+        ("wheels[0].|: 3", ["wheels[0].size"], "wheels[0]."), ("wheels[0].si|", ["wheels[0].size: "], "wheels[0].si"),
         ("mo|de: slow", ["mode", "is_on", "speed", "wheels", "token", "camera", "period"], "mode"), ("mode:|", [], ""),
     ],
 )  # fmt: skip
@@ -237,6 +239,18 @@ def inserted(file: str, marked: str, *, with_schema: bool = False) -> list[str]:
     place = typed_at(before + behind, line, column)
     found = proposals(f"{ROOT}/{file}", place, NAMES, IMPORTABLE, PROGRAM, with_schema=with_schema) if place else []
     return [one.snippet or one.text for one in found]
+
+
+def test_only_what_can_serve_is_offered_to_connect_to() -> None:
+    """`arm` requires Left, which is an Arm. Of what is unknown, nobody can say it."""
+    more = (
+        "  eye: {component: eye}\n  sh: {program: sh}\n  old: {program: sh, endpoints: {Arm: tcp -p 5}}\n  gone: {component: gone}\n"
+        "groups: {g: {components: [one]}}\n"
+    )
+    place = f"{DDSL}  two: {{component: arm, connect: {{Left: |}}}}\n{more}"
+    assert offered("robot.ddsl.yaml", place) == ["one", "old", "gone", "g"]
+    place = f"{DDSL}  two: {{program: sh, connect: {{Left: |}}}}\n{more}"
+    assert offered("robot.ddsl.yaml", place) == ["one", "eye", "old", "gone", "g"]
 
 
 def test_values_in_quotes_keep_these() -> None:

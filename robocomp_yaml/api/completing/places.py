@@ -12,7 +12,8 @@ from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
 MARK = "rcyaml0cursor"
-_BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
+_WORD = r"(?:[\w./-]|(?<=[\w\]])\[\d+\])*"  # with paths of parameters (`joints[0].vel`)
+_BEFORE, _BEHIND = re.compile(rf"{_WORD}\Z"), re.compile(_WORD)
 _OPERAND, _OPERAND_BEHIND = re.compile(r"[\w.]*\Z"), re.compile(r"[\w.]*")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
@@ -81,7 +82,7 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
         keys = _keys_around(root) if isinstance(root, Mapping) else None
         if keys is not None and isinstance(root, Mapping):
             steps, is_key, node, around = keys
-            is_key = is_key or (not own.strip() and steps[-1:] != ("",))
+            is_key = is_key or (not own.strip(" \t\"'") and steps[-1:] != ("",))
             start, size = begin.start() - starts[line - 1] + 1, end.end() - begin.start()
             stop = start + size
             if _is_expression(steps, is_key):  # `-` and `/` are operators there
@@ -147,3 +148,22 @@ def _keys_around(node: Node, outer: tuple[str, ...] = ()) -> _Found | None:
             if found := _keys_around(item, (*outer, "")):
                 return (*found[:3], node) if found[2] is item else found
     return None
+
+
+def siblings(place: TypedPlace) -> list[str]:
+    """The keys of the mapping, or the plain elements of the list, in which something is typed."""
+    if isinstance(place.around, Sequence):
+        return [one.lexeme for one in place.around.items if isinstance(one, Scalar) and MARK not in one.lexeme]
+    return [key for key in place.around.entries if key != MARK] if place.around is not None else []
+
+
+def keys_of(root: Mapping, section: str) -> list[str]:
+    """The keys of a section of a document."""
+    found = root.get(section)
+    return [key.lexeme for key, _ in found.items()] if isinstance(found, Mapping) else []
+
+
+def items_of(root: Node | None, section: str) -> list[str]:
+    """The elements of a list that a node has."""
+    found = root.get(section) if root is not None else None
+    return [str(item.data) for item in found.items] if isinstance(found, Sequence) else []

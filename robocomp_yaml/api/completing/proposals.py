@@ -12,9 +12,9 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api.completing import machines, others, schema_keys, values
+from robocomp_yaml.api.completing import deployments, machines, others, schema_keys, values
 from robocomp_yaml.api.completing.paths import paths
-from robocomp_yaml.api.completing.places import MARK, TypedPlace
+from robocomp_yaml.api.completing.places import TypedPlace, items_of, keys_of, siblings
 from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.schemas import names_offered
 from robocomp_yaml.check.pdsl.values import port_names
@@ -22,12 +22,10 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, Edit
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.program import LinkedParameters, Program
+from robocomp_yaml.link.program import Program
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.parameters.specification.expression import FUNCTIONS
-from robocomp_yaml.parameters.types import RecordType
-from robocomp_yaml.parameters.words import label
 from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText
@@ -53,7 +51,7 @@ def proposals(
     """What can stand at a place of a document, each once. `with_schema`: also what its schema says."""
     found: Iterator[Proposal] = iter(())
     kind = kind_at(path)
-    present = _siblings(place)
+    present = siblings(place)
     modules = dict.fromkeys(importable)  # in their order, and looked up for each name
     match kind:
         case "idsl":
@@ -67,8 +65,7 @@ def proposals(
                 _component_paths(path, place, known, "component"),
             )
         case "ddsl":
-            found = chain(_in_deployment(path, place, known), _set_values(path, place, program))
-            found = chain(found, _ports_of_entry(path, place, program), _of_groups(place, program, path))
+            found = deployments.proposals(path, place, known, program)
         case "config":
             found = chain(_in_values(path, place, program, with_schema=with_schema),
                           _component_paths(path, place, known, "component"))  # fmt: skip
@@ -87,7 +84,8 @@ def proposals(
 def _as_typed(one: Proposal, kind: str, place: TypedPlace) -> Proposal:
     """A proposal beside what is typed already: the colon of a key or quotes; or in the brackets of a list, which are
     missing."""
-    if place.has_colon and (one.snippet or one.text).endswith(": "):
+    is_closed = place.has_colon or (place.is_key and place.quote)
+    if is_closed and (one.snippet or one.text).endswith(": "):
         return replace(one, text=one.text.removesuffix(": "), snippet=one.snippet.removesuffix(": "))
     if place.quote and not one.snippet and one.text[:1] == one.text[-1:] == '"':
         single = json.loads(one.text).replace("'", "''")
@@ -108,14 +106,7 @@ def _of_schema(kind: str, place: TypedPlace) -> Iterator[Proposal]:
     if not place.is_key:
         yield from schema_keys.values_at(kind, place.keys)
         return
-    yield from schema_keys.keys_at(kind, place.keys, _siblings(place))
-
-
-def _siblings(place: TypedPlace) -> list[str]:
-    """The keys of the mapping, or the plain elements of the list, in which something is typed."""
-    if isinstance(place.around, Sequence):
-        return [one.lexeme for one in place.around.items if isinstance(one, Scalar) and MARK not in one.lexeme]
-    return [key for key in place.around.entries if key != MARK] if place.around is not None else []
+    yield from schema_keys.keys_at(kind, place.keys, siblings(place))
 
 
 def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_schema: bool) -> Iterator[Proposal]:
@@ -127,90 +118,10 @@ def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_sc
     if linked is None:
         return
     if place.keys[:1] == ("parameters",):
-        yield from _at_parameter(linked, place, place.keys[1:])
+        yield from values.at_parameter(linked, place, place.keys[1:])
     elif place.is_key and linked.component is not None and place.keys in (known := port_names(linked.component)):
         what, ports = known[place.keys]
         yield from (Proposal(one, names.INTERFACE, what, snippet=f"{one}: ") for one in ports)
-
-
-def _at_parameter(linked: LinkedParameters, place: TypedPlace, steps: tuple[str, ...]) -> Iterator[Proposal]:
-    """The values of the parameter at a path, or the names of the parameters or members there. Behind a dot, those of
-    groups with their path."""
-    root = linked.parameters.root
-    head = place.word.rpartition(".")[0] if place.is_key else ""
-    inner = values.member_at(root, (*steps, head) if head else steps) if steps or head else None
-    if not place.is_key:
-        yield from values.values_of(inner) if inner is not None else ()
-        if steps[-1:] != ("",):  # else a record may be begun
-            return
-    record = inner.type if inner is not None else root if not (steps or head) else None
-    for one in record.members if isinstance(record, RecordType) else ():
-        name = f"{head}.{one.name}" if head else one.name
-        yield Proposal(name, names.PARAMETER, label(one.type), one.doc, snippet=f"{name}: ")
-
-
-def _set_values(path: str, place: TypedPlace, program: Program | None) -> Iterator[Proposal]:
-    """Parameters under `set:` of an entry and their values, which no schema knows."""
-    match place.keys:
-        case ("components", entry, "set", *steps) if (steps or place.is_key) and program is not None:
-            linked = _parameters_of(path, place, entry, program)
-            yield from _at_parameter(linked, place, tuple(steps)) if linked is not None else ()
-
-
-def _parameters_of(path: str, place: TypedPlace, entry: str, program: Program) -> LinkedParameters | None:
-    components = place.root.get("components")
-    of_entry = components.get(entry) if components is not None else None
-    component = of_entry.get("component") if of_entry is not None else None
-    return values.parameters_for(program, path, str(component.data)) if component is not None else None
-
-
-def _ports_of_entry(path: str, place: TypedPlace, program: Program | None) -> Iterator[Proposal]:
-    """The ports of an entry's component, as keys; and the topics of a deployment."""
-    match place.keys:
-        case ("components", entry, "connect" | "topics" | "ports" | "endpoints" as section) if (
-            place.is_key and program is not None
-        ):
-            linked = _parameters_of(path, place, entry, program)
-            component = linked.component if linked is not None else None
-            if component is None:
-                return
-            lists = {
-                "connect": (("requires", component.requires),),
-                "topics": (("publishes", component.publishes), ("subscribes", component.subscribes)),
-            }.get(section, (("implements", component.implements), ("subscribes", component.subscribes)))  # fmt: skip
-            present = _siblings(place)
-            for what, ports in lists:
-                for port in ports:
-                    if port.name not in present:
-                        yield Proposal(port.name, names.INTERFACE, f"{what} {port.interface.name}", port.interface.doc)
-        case ("components", _, "topics", name) if not place.is_key:
-            yield from (Proposal(topic, names.TOPIC, "topic of this deployment") for topic in _topics(place.root, name))
-
-
-def _topics(root: Mapping, own: str) -> list[str]:
-    """The names of topics that a deployment writes; that of the port itself comes first."""
-    found = {own: None}
-    components = root.get("components")
-    for _, entry in components.items() if isinstance(components, Mapping) else ():
-        topics = entry.get("topics")
-        for _, value in topics.items() if isinstance(topics, Mapping) else ():
-            if isinstance(value, Scalar) and value.lexeme and MARK not in value.lexeme:
-                found[value.lexeme] = None
-    return list(found)
-
-
-def _of_groups(place: TypedPlace, program: Program | None, path: str) -> Iterator[Proposal]:
-    """Members and methods of what a group exposes."""
-    match place.keys:
-        case ("groups", group, "expose", _) | ("groups", group, "expose", _, "member") if not place.is_key:
-            groups = place.root.get("groups")
-            listed = groups.get(group) if groups is not None else None
-            yield from (Proposal(name, names.ENTRY) for name in _items_of(listed, "components"))
-        case ("groups", _, "expose", interface, "allow", *_) if not place.is_key and program is not None:
-            for scope in program.modules.values():
-                for one in scope.module.interfaces:
-                    if one.name == interface:
-                        yield from (Proposal(each.name, names.METHOD, "", each.doc) for each in one.methods)
 
 
 def _component_paths(path: str, place: TypedPlace, known: Names, key: str) -> Iterator[Proposal]:
@@ -250,7 +161,7 @@ def kind_at(path: str, disk: Disk | None = None) -> str:
 def _imports(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
     """Modules by their names, and by relative paths those that no folder of the search path has."""
     far = (_as_import(one, path, importable) for one in known.of_kinds(names.MODULE) if one.span.file != path)
-    own = {os.path.basename(path).removesuffix(_SUFFIX), *_items(place.root, "imports")}
+    own = {os.path.basename(path).removesuffix(_SUFFIX), *items_of(place.root, "imports")}
     return (Proposal(name, names.MODULE) for name in dict.fromkeys((*importable, *far)) if name not in own)
 
 
@@ -276,7 +187,7 @@ def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Colle
 
 def _types(place: TypedPlace, known: Names, section: str) -> Iterator[Proposal]:
     kind = names.EXCEPTION if section == "exceptions" else names.TYPE
-    yield from (Proposal(name, kind, f"{kind} of this module") for name in _keys(place.root, section))
+    yield from (Proposal(name, kind, f"{kind} of this module") for name in keys_of(place.root, section))
     for stem, one in _of_imported(place, known, kind):
         yield Proposal(f"{stem}.{one.name}", kind, one.says, one.doc)
 
@@ -296,7 +207,7 @@ def _enumerators(place: TypedPlace, known: Names) -> Iterator[Proposal]:
     types = place.root.get("types")
     own = types.get(name) if types is not None and not stem else None
     listed = own.get("enum") if own is not None else None
-    found = [key.lexeme for key, _ in listed.items()] if isinstance(listed, Mapping) else _items_of(own, "enum")
+    found = [key.lexeme for key, _ in listed.items()] if isinstance(listed, Mapping) else items_of(own, "enum")
     yield from (Proposal(one, VALUE, f"enumerator of {name}") for one in found)
     for imported, one in _of_imported(place, known, names.ENUMERATOR):
         if stem == imported and one.key[2] == name:
@@ -322,7 +233,7 @@ def _in_parameters(place: TypedPlace, known: Names) -> Iterator[Proposal]:
     if not place.is_key and place.keys[-1:] == ("default",):
         yield from _enumerators(place, known)
     if not place.is_key and place.keys[-1:] in (("type",), ("list",), ("map",)):
-        yield from (Proposal(name, names.TYPE, "type of this document") for name in _keys(place.root, "types"))
+        yield from (Proposal(name, names.TYPE, "type of this document") for name in keys_of(place.root, "types"))
 
 
 def _in_constraint(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
@@ -345,47 +256,14 @@ def _in_constraint(path: str, place: TypedPlace, known: Names) -> Iterator[Propo
         yield from (Proposal(name, VALUE, "function", snippet=f"{name}(") for name in FUNCTIONS)
 
 
-def _in_deployment(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
-    keys, root = place.keys, place.root
-    entries = [name for name in _keys(root, "components") if keys[:2] != ("components", name)]
-    others = [*_keys(root, "groups"), *_keys(root, "services")]
-    match keys:
-        case ("components" | "groups" | "services", _, *_, "host") if not place.is_key:
-            yield from (Proposal(name, names.HOST) for name in _keys(root, "hosts"))
-        case ("components", _, "component") | ("groups", _, "as") if not place.is_key:
-            for one in known.of_kinds(names.COMPONENT):
-                folder = os.path.relpath(os.path.dirname(one.span.file), os.path.dirname(path))
-                yield Proposal(folder, names.COMPONENT, one.says, one.doc)
-        case ("components", _, "connect" | "process", *_) if not place.is_key:
-            yield from (Proposal(name, names.ENTRY) for name in (*entries, *_keys(root, "groups")))
-        case ("components", _, "after", *_) if not place.is_key:
-            yield from (Proposal(name, names.ENTRY) for name in (*entries, *others))
-        case ("groups", _, "components", *_) if not place.is_key:
-            yield from (Proposal(name, names.ENTRY) for name in entries)
-
-
 def _of_imported(place: TypedPlace, known: Names, kind: str) -> Iterator[tuple[str, DefinedName]]:
     """The names of a kind in the modules that the document imports, each with the stem of its module."""
-    stems = {name.rpartition("/")[2].removesuffix(_SUFFIX) for name in _items(place.root, "imports")}
+    stems = {name.rpartition("/")[2].removesuffix(_SUFFIX) for name in items_of(place.root, "imports")}
     return ((_stem(one), one) for one in known.of_kinds(kind) if _stem(one) in stems)
 
 
 def _stem(one: DefinedName) -> str:
     return os.path.basename(one.key[1]).removesuffix(_SUFFIX)
-
-
-def _keys(root: Mapping, section: str) -> list[str]:
-    found = root.get(section)
-    return [key.lexeme for key, _ in found.items()] if isinstance(found, Mapping) else []
-
-
-def _items(root: Mapping, section: str) -> list[str]:
-    return _items_of(root, section)
-
-
-def _items_of(root: Node | None, section: str) -> list[str]:
-    found = root.get(section) if root is not None else None
-    return [str(item.data) for item in found.items] if isinstance(found, Sequence) else []
 
 
 def of_schema_server(path: str, place: TypedPlace) -> frozenset[str]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 
+from robocomp_yaml.api.completing.places import TypedPlace
 from robocomp_yaml.api.completing.proposal import VALUE, Proposal
-from robocomp_yaml.link.program import LinkedParameters, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
+from robocomp_yaml.naming import names
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -18,22 +20,34 @@ from robocomp_yaml.parameters.types import (
     Type,
     is_secret,
 )
-from robocomp_yaml.parameters.words import in_words
+from robocomp_yaml.parameters.words import in_words, label
 from robocomp_yaml.source.yaml_text import flow
 
 
 def parameters_for(program: Program, path: str, component: str = "") -> LinkedParameters | None:
     """The parameters that a document is about: those of its component, which is a folder or document as written."""
-    named = os.path.normpath(os.path.join(os.path.dirname(path), component)) if component else ""
-    for real, linked in program.components.items():
-        written = linked.component.path
-        if named in (written, real, os.path.dirname(written), os.path.dirname(real)):
-            return linked.parameters
+    if linked := components_by_path(program).get(document_at(path, component)) if component else None:
+        return linked.parameters
     for real, parameters in program.parameters.items():
         if parameters.document is not None and path in (real, parameters.document.path):
             return parameters
     values = next((one for real, one in program.values.items() if path in (real, one.document.path)), None)
     return values.parameters if values is not None else None
+
+
+def components_by_path(program: Program) -> dict[str, LinkedComponent]:
+    """The components by the paths, as written and real, of their documents and folders."""
+    found: dict[str, LinkedComponent] = {}
+    for real, linked in program.components.items():
+        written = linked.component.path
+        for path in (written, real, os.path.dirname(written), os.path.dirname(real)):
+            found.setdefault(path, linked)
+    return found
+
+
+def document_at(path: str, component: str) -> str:
+    """A path that a document names, as a path from here."""
+    return os.path.normpath(os.path.join(os.path.dirname(path), component))
 
 
 def member_at(root: RecordType, steps: Sequence[str]) -> ResolvedMember | None:
@@ -80,3 +94,19 @@ def values_of(member: ResolvedMember) -> Iterator[Proposal]:
             for bound, what in ((limits.low, "least"), (limits.high, "greatest")) if limits is not None else ():
                 if bound is not None and not bound.is_open:
                     yield Proposal(flow(bound.value), VALUE, f"the {what}; {about}", member.doc)
+
+
+def at_parameter(linked: LinkedParameters, place: TypedPlace, steps: tuple[str, ...]) -> Iterator[Proposal]:
+    """The values of the parameter at a path, or the names of the parameters or members there. Behind a dot, those of
+    groups with their path."""
+    root = linked.parameters.root
+    head = place.word.rpartition(".")[0] if place.is_key else ""
+    inner = member_at(root, (*steps, head) if head else steps) if steps or head else None
+    if not place.is_key:
+        yield from values_of(inner) if inner is not None else ()
+        if steps[-1:] != ("",):  # else a record may be begun
+            return
+    record = inner.type if inner is not None else root if not (steps or head) else None
+    for one in record.members if isinstance(record, RecordType) else ():
+        name = f"{head}.{one.name}" if head else one.name
+        yield Proposal(name, names.PARAMETER, label(one.type), one.doc, snippet=f"{name}: ")
