@@ -7,8 +7,8 @@ from typing import TypeVar
 
 from lsprotocol import types
 
-from robocomp_yaml.api.completing import schema_keys
-from robocomp_yaml.api.completing.places import typed_at
+from robocomp_yaml.api.completing import schema_keys, values
+from robocomp_yaml.api.completing.places import TypedPlace, typed_at
 from robocomp_yaml.api.completing.proposals import kind_at
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp.from_code import in_slice, name_in_code
@@ -132,26 +132,44 @@ def add(server: Server) -> None:
             text = "\n\n".join(part for part in parts if part)
             return _markdown(f"{text}\n\n---\n\n{told[0]}" if told is not None else text, where)
 
+        def of_value() -> types.Hover | None:
+            """What the value of a parameter is, unless a server of schemas says it. None knows the keys of `set:`."""
+            path = real_path(params.text_document.uri) or ""
+            found = _typed(path, params.position)
+            if found is None or (found[0] == "config" and server.has_schema_server(path)):
+                return None
+            kind, place, where = found
+            text = values.about_value(path, kind, place, server.session.names_around(path).program)
+            return _markdown(text, where) if text else None
+
         def of_schema() -> types.Hover | None:
             told = _of_schema(params)
             return _markdown(*told) if told is not None else None
 
-        return await asked(params, answer) or await server.run(of_schema)
+        return await asked(params, answer) or await server.run(of_value) or await server.run(of_schema)
+
+    def _typed(path: str, position: types.Position) -> tuple[str, TypedPlace, types.Range] | None:
+        """The kind of an open document, and the key or value at a position with its range."""
+        document = server.session.open.get(path)
+        if document is None or not server.session.is_document(path):
+            return None
+        lines = server.lines(document.text)
+        place = typed_at(document.text, *lines.place(position))
+        if place is None or place.column == place.end_column:
+            return None
+        where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
+        return kind_at(path, Disk({path: document.raw})), place, where
 
     def _of_schema(params: types.HoverParams) -> tuple[str, types.Range] | None:
         """What the schema says of the key or value at a position, unless a server of schemas says it."""
         path = real_path(params.text_document.uri) or ""
-        document = server.session.open.get(path)
-        if document is None or not server.session.is_document(path) or server.has_schema_server(path):
+        found = _typed(path, params.position)
+        if found is None or server.has_schema_server(path):
             return None
-        lines = server.lines(document.text)
-        place = typed_at(document.text, *lines.place(params.position))
-        kind = kind_at(path, Disk({path: document.raw}))
-        if place is None or place.column == place.end_column:
-            return None
-        word = lines.line(place.line)[place.column - 1 : place.end_column - 1]
+        kind, place, where = found
+        line = server.lines(server.session.text_of(path)).line(place.line)
+        word = line[place.column - 1 : place.end_column - 1]
         text = schema_keys.about(kind, (*place.keys, word) if place.is_key else place.keys)
-        where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
         return (text, where) if text else None
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)

@@ -123,3 +123,52 @@ def test_beside_a_server_of_schemas_nothing_is_told_or_offered_twice(
         assert not editor.messages
 
     edited(test)
+
+
+@pytest.mark.parametrize("schema_server", ["no", "yes"])
+def test_values_say_what_they_are(tmp_path: Path, schema_server: str) -> None:
+    """Of which parameter, and what the enumerators mean; no server of schemas knows that under `set:`."""
+    values = "component: ../eye.cdsl.yaml\nparameters:\n  mode: slow\n  lenses: [{width: 3}]\n"
+    robot = (
+        "deployment: Robot\ncomponents:\n"
+        "  eye: {component: eye, set: {mode: fast, 'lenses[0].width': 4, camera.gain: 2, lenses: [{width: 5}]}}\n"
+    )
+    ws = write_tree(
+        tmp_path / "ws",
+        {
+            "rcyaml.yaml": "",
+            "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: python\n",
+            "eye/eye.pdsl.yaml": (
+                "component: eye.cdsl.yaml\n"
+                "types: {Mode: {enum: {slow: {doc: With care.}, fast: }}, Lens: {struct: {width: {type: int, unit: mm}}}}\n"
+                "parameters:\n  mode: {type: Mode, default: slow, doc: How it looks.}\n  lenses: {list: Lens, default: []}\n"
+                "  camera: {group: {gain: {type: float, default: 1.5}}}\n"
+            ),
+            "eye/etc/config.yaml": values,
+            "robot.ddsl.yaml": robot,
+        },
+    )
+    config, deployment = ws / "eye/etc/config.yaml", ws / "robot.ddsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        async def hovered(path: Path, text: str) -> str:
+            return (await _hovered(editor, path, text) or ("",))[0]
+
+        await editor.start(ws, schema_server=schema_server)
+        editor.open(config)
+        editor.open(deployment)
+        told = await hovered(deployment, robot.replace(": fast", ": fa|st"))
+        assert "parameter mode: " in told and "How it looks." in told and "- `slow`: With care." in told
+        assert "parameter lenses[0].width: int" in await hovered(deployment, robot.replace("width': 4", "width': |4"))
+        assert "parameter lenses.width: int" in await hovered(deployment, robot.replace("width: 5", "width: |5"))
+        assert "default: 1.5" in await hovered(deployment, robot.replace("gain: 2", "gain: |2"))
+        elsewhere = robot.replace("component: eye,", "component: nowhere,")
+        assert not await hovered(deployment, elsewhere.replace(": fast", ": fa|st"))
+        with_ours = [await hovered(config, values.replace(*one)) for one in ((": slow", ": sl|ow"), (": 3", ": |3"))]
+        if schema_server == "yes":
+            assert with_ours == ["", ""], "that is said by the schema"
+        else:
+            assert "With care." in with_ours[0] and "parameter lenses.width: int" in with_ours[1]
+        assert not editor.messages
+
+    edited(test)

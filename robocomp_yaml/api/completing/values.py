@@ -20,7 +20,7 @@ from robocomp_yaml.parameters.types import (
     Type,
     is_secret,
 )
-from robocomp_yaml.parameters.words import in_words, label
+from robocomp_yaml.parameters.words import for_editors, in_words, label
 from robocomp_yaml.source.yaml_text import flow
 
 
@@ -110,3 +110,24 @@ def at_parameter(linked: LinkedParameters, place: TypedPlace, steps: tuple[str, 
     for one in record.members if isinstance(record, RecordType) else ():
         name = f"{head}.{one.name}" if head else one.name
         yield Proposal(name, names.PARAMETER, label(one.type), one.doc, snippet=f"{name}: ")
+
+
+def about_value(path: str, kind: str, place: TypedPlace, program: Program) -> str:
+    """What a value in a values document, or under `set:`, is: of which parameter, and what the enumerator means. '' at
+    any other place."""
+    match kind, place.keys:
+        case "config", ("parameters", *steps):
+            component = place.root.get("component")
+            linked = parameters_for(program, path, str(component.data) if component is not None else "")
+        case "ddsl", ("components", entry, "set", *steps):
+            components = place.root.get("components")
+            of_entry = components.get(entry) if components is not None else None
+            component = of_entry.get("component") if of_entry is not None else None
+            linked = parameters_for(program, path, str(component.data)) if component is not None else None
+        case _:
+            return ""
+    member = member_at(linked.parameters.root, steps) if linked is not None and not place.is_key else None
+    if member is None:
+        return ""
+    title = f"```\nparameter {'.'.join(filter(None, steps))}: {label(member.type)}\n```"
+    return "\n\n".join(part for part in (title, member.doc, for_editors(member)) if part)
