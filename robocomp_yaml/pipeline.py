@@ -25,7 +25,7 @@ from msgspec.structs import replace
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.check import check_documents, checks_of_plugins
 from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict, commented_in
-from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link import undeployed
 from robocomp_yaml.link.documents import Document, Documents
@@ -75,15 +75,16 @@ class Analysis(msgspec.Struct, frozen=True):
         return in_order([*self.diagnostics, *self.for_users(self.without_suppressed(diagnostics).reported)])
 
     def complete(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
-        """The same, if no pass follows. Then it is also known which comments suppress nothing, and these are reported
-        for the requested documents."""
+        """The same, if no pass follows. Without errors, which hide other diagnostics, it is then also known which
+        comments suppress nothing, and these are reported for the requested documents."""
         more, read = self.without_suppressed(diagnostics), self.documents
+        shown = in_order([*self.diagnostics, *self.for_users(more.reported)])
+        if any(one.severity == ERROR for one in shown):
+            return shown
         requested = [read[real].path for real in self.program.requested if real in read]
         files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
         unused = self.allowed.unused(sorted(files), self.used | more.used, environment=environment)
-        return in_order(
-            [*self.diagnostics, *self.for_users((*more.reported, *self.without_suppressed(unused).reported))]
-        )
+        return in_order([*shown, *self.for_users(self.without_suppressed(unused).reported)])
 
     def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> AllowanceVerdict:
         """The diagnostics that no comment suppresses."""

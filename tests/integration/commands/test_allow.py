@@ -236,6 +236,16 @@ REMOVED = {
 }
 
 
+@pytest.mark.parametrize("error", ["types: {T: {sequnce: float}}\n", "topic: {}\n", "imports: [Gone]\n", "doc: [1]\n"])
+def test_an_error_hides_what_is_allowed(rcyaml: Run, tmp_path: Path, error: str) -> None:
+    """The comment is not lost with the fix of the error, nor with an error in another document."""
+    text = f"{WRONG}{ALLOW}\n"
+    write_tree(tmp_path, {"Speech.idsl.yaml": text + error, "Other.idsl.yaml": f"module: O\nimports: [Speech]\n{error}"})
+    assert "RC0060" not in rcyaml("check").stdout
+    rcyaml("check", "--unsafe-fixes")
+    assert ALLOW in (tmp_path / "Speech.idsl.yaml").read_text()
+
+
 @pytest.mark.parametrize(("comment", "after"), REMOVED.items(), ids=range(len(REMOVED)))
 def test_comments_can_be_fixed(rcyaml: Run, tmp_path: Path, comment: str, after: str) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": f"{WRONG}{comment}"})
