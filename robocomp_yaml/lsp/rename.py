@@ -133,7 +133,12 @@ def _add_file(server: Server, edit: types.WorkspaceEdit, known: KnownNames, old:
     for one in edits_of_moves(known.analysis, known.names, {os.path.realpath(old): os.path.realpath(new)}):
         paths.setdefault(one.span.file, []).append(one)
     changes = list(edit.document_changes or ())
-    changes += _changes(server, paths, _OF_FILE)
+    of_file = {one.text_document.uri: one for one in changes if isinstance(one, types.TextDocumentEdit)}
+    for more in _changes(server, paths, _OF_FILE):
+        if before := of_file.get(more.text_document.uri):  # all positions in one document are those before the change
+            before.edits = [*before.edits, *more.edits]
+        else:
+            changes.append(more)
     changes.append(types.RenameFile(server.uri_of(old), uri_of_path(new), annotation_id=_OF_FILE))
     edit.document_changes = changes
     title = f"{os.path.basename(old)} → {os.path.basename(new)}, and the paths to it"
@@ -149,7 +154,7 @@ def _workspace_edit(
     """The edits as the editor can read them."""
     can = _can(server)
     if can is not None and can.document_changes:
-        return types.WorkspaceEdit(document_changes=_changes(server, by_file, "" if is_annotated else None))
+        return types.WorkspaceEdit(document_changes=[*_changes(server, by_file, "" if is_annotated else None)])
     return types.WorkspaceEdit(
         changes={
             server.uri_of(path): [types.TextEdit(lines.range(one.span), one.text) for one in edits]
@@ -161,7 +166,7 @@ def _workspace_edit(
 
 def _changes(
     server: Server, by_file: Mapping[str, Sequence[NameEdit]], annotation: str | None
-) -> list[types.TextDocumentEdit | types.CreateFile | types.RenameFile | types.DeleteFile]:  # fmt: skip
+) -> list[types.TextDocumentEdit]:  # fmt: skip
     """`annotation` is that of all edits; '': that of documents or of code; None: the editor knows none."""
     return [
         types.TextDocumentEdit(

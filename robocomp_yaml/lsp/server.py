@@ -107,11 +107,8 @@ class Server(LanguageServer):
         await self._check_later()
 
     async def closed(self, path: str) -> None:
-        if is_code(path):
-            await self.run(lambda: self.session.close_code(path))
-            await self._check_later()
-            return
-        gone = await self.run(lambda: self.session.close(path))
+        close = self.session.close_code if is_code(path) else self.session.close
+        gone = await self.run(lambda: close(path))
         for one in gone:
             self._publish(one, [], DocumentTexts({}, {}), {})
         await self._check_later()

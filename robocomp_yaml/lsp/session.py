@@ -144,10 +144,13 @@ class Session:
         for workspace in self.workspaces.values():
             workspace.living.edit(code.path, code.raw)
 
-    def close_code(self, path: str) -> None:
+    def close_code(self, path: str) -> list[str]:
+        """A file of the user's code was closed. Returns the same as `close`."""
+        root = root_above(os.path.dirname(path), self.disk)
         self.code.pop(path, None)
         for workspace in self.workspaces.values():
             workspace.living.edit(path, None)
+        return self._drop_unused(os.path.realpath(root) if root is not None else "")
 
     def close(self, path: str) -> list[str]:
         """A document was closed. Returns the paths whose diagnostics go with it. The workspace of the last document is
@@ -162,7 +165,7 @@ class Session:
         return self._drop_unused(root if root != path else "")
 
     def _drop_unused(self, last: str) -> list[str]:
-        used = {self.root_of(path) for path in self.open}
+        used = {self.root_of(path) for path in self.open} | self._roots_of_code()
         gone: list[str] = []
         for root in self.workspaces.keys() - used:
             workspace = self.workspaces[root]
@@ -180,8 +183,13 @@ class Session:
             workspace.living.refresh()
 
     def roots(self) -> set[str]:
-        """The workspaces of the open documents that are documents of rcyaml."""
-        return {self.root_of(path) for path in self.open if self.is_checked(path)}
+        """The workspaces of the open documents that are documents of rcyaml, and of open code."""
+        return {self.root_of(path) for path in self.open if self.is_checked(path)} | self._roots_of_code()
+
+    def _roots_of_code(self) -> set[str]:
+        """The declared workspaces of open code: other folders with code need not have anything to do with rcyaml."""
+        roots = (root_above(os.path.dirname(path), self.disk) for path in self.code)
+        return {os.path.realpath(root) for root in roots if root is not None}
 
     def versions(self) -> dict[str, int | None]:
         return {path: document.version for path, document in (*self.open.items(), *self.code.items())}

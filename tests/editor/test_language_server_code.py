@@ -269,3 +269,27 @@ def test_a_method_leads_to_what_was_generated_from_it(
         assert not editor.messages
 
     edited(test)
+
+
+def test_code_is_checked_where_no_document_is_open(ws: Path) -> None:
+    code, other = ws / "speech/src/specificworker.py", ws.parent / "other/tool.py"
+    write_tree(ws.parent, {"other/tool.py": "self.parameters.vloume\n", "other/wrong.idsl.yaml": "nothing: 1\n"})
+    text = code.read_text().replace("print(", "print(self.parameters.vloume, ")
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws.parent)
+        editor.open(other)
+        editor.open(code)
+        editor.change(code, text)
+        _, wrong = await editor.until_codes(code, "RC6201", "RC6306")
+        assert [action.title for action in await editor.actions(code, wrong.range)] == ["Write 'volume'"]
+        editor.change(code, text.replace("vloume", "volume"))
+        await editor.until_codes(code, "RC6201")
+        editor.change(code, text)
+        await editor.until_codes(code, "RC6201", "RC6306")
+        editor.close(code)
+        await editor.until_codes(code)
+        assert not [path for path in editor.shown if "other" in str(path)], "that folder is none of rcyaml's"
+        assert not editor.messages
+
+    edited(test)

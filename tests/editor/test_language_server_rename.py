@@ -187,3 +187,23 @@ def test_the_renaming_of_a_component_offers_its_file(ws: Path) -> None:
         assert not editor.messages
 
     edited(test)
+
+
+def test_a_document_has_one_change_with_the_paths_to_the_renamed_file(ws: Path) -> None:
+    """Positions count before the change: those of a second one would be wrong in the same line."""
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "hand.cdsl.yaml"
+    component.write_text("{component: HandComp, language: python, implements: [Speech], imports: [Speech]}\n")
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws, operations=[types.ResourceOperationKind.Rename])
+        editor.open(interface)
+        lines = interface.read_text().split("\n")
+        line = next(number for number, text in enumerate(lines) if "  Speech:" in text)
+        made = await _renamed(editor, interface, line, lines[line].index("Speech") + 1, "LongHand")
+        changes = [one for one in made.document_changes or () if isinstance(one, types.TextDocumentEdit)]
+        (of_component,) = [one for one in changes if one.text_document.uri == component.as_uri()]
+        assert sorted(getattr(one, "annotation_id", "") for one in of_component.edits) == ["documents", "file"]
+        assert len({one.text_document.uri for one in changes}) == len(changes)
+        assert not editor.messages
+
+    edited(test)

@@ -240,7 +240,9 @@ REMOVED = {
 def test_an_error_hides_what_is_allowed(rcyaml: Run, tmp_path: Path, error: str) -> None:
     """The comment is not lost with the fix of the error, nor with an error in another document."""
     text = f"{WRONG}{ALLOW}\n"
-    write_tree(tmp_path, {"Speech.idsl.yaml": text + error, "Other.idsl.yaml": f"module: O\nimports: [Speech]\n{error}"})
+    write_tree(
+        tmp_path, {"Speech.idsl.yaml": text + error, "Other.idsl.yaml": f"module: O\nimports: [Speech]\n{error}"}
+    )
     assert "RC0060" not in rcyaml("check").stdout
     rcyaml("check", "--unsafe-fixes")
     assert ALLOW in (tmp_path / "Speech.idsl.yaml").read_text()
