@@ -153,22 +153,65 @@ def _script(names: Names, program: Program, tree: MappingNode) -> None:
                     method = next((one for one in found[0][1].methods if one.name == called.lexeme), None)
                     if method is not None:
                         names.use(method_key(of, method.name), called.span.inside(method.name, 0, len(method.name)))
-                        _arguments(
-                            names, (kinds.ARGUMENT, *of[1:], method.name), method, said, is_message=section == "topics"
-                        )
+                        _arguments(names, found[0][0], of, method, said, is_message=section == "topics")
 
 
-def _arguments(names: Names, outer: Key, method: Method, said: Node, *, is_message: bool) -> None:
-    """The arguments that a message of a topic contains, or those that an answer of a method returns."""
+def _arguments(
+    names: Names, scope: LinkedModule, interface: Key, method: Method, said: Node, *, is_message: bool
+) -> None:  # fmt: skip
+    """What a message of a topic contains, or the answers of a method: arguments, results and exceptions."""
     answers = said.items if isinstance(said, SequenceNode) else [said]
-    if is_message:
-        given = [pair for one in answers for pair in _entries(one)]
-    else:
-        given = [pair for one in answers for pair in _entries(one.get("out"))]
-    known = {one.name for one in (*method.inputs, *method.outputs)}
-    for key, _ in given:
+    given = [pair for one in answers for pair in _entries(one if is_message else one.get("out"))]
+    known = {one.name: one.type for one in (*method.inputs, *method.outputs)}
+    for key, value in given:
         if key.lexeme in known:
-            names.use((*outer, key.lexeme), key.span.inside(key.lexeme, 0, len(key.lexeme)))
+            names.use((kinds.ARGUMENT, *interface[1:], method.name, key.lexeme), _inside(key))
+            _value(names, scope, known[key.lexeme], value)
+    for answer in answers if not is_message else ():
+        if method.returns is not None and (returned := answer.get("returns")) is not None:
+            _value(names, scope, method.returns, returned)
+        for key, value in _entries(answer.get("throws")):
+            for reference in method.throws:
+                if key.lexeme in (reference.text, reference.name) and (found := scope.find(reference)) is not None:
+                    qualified(names, *found, key.lexeme, key.span)
+                    _members(names, *found, value)
+
+
+def _value(names: Names, scope: LinkedModule, type_: TypeRef, value: Node) -> None:
+    """The members and enumerators in a value, as values documents have them."""
+    match scope.find(type_):
+        case (found, Sequence(element=element)):
+            for item in value.items if isinstance(value, SequenceNode) else ():
+                _value(names, found, element, item)
+        case (found, Map(key=of_key, value=of_value)):
+            for key, inner in _entries(value):
+                _value(names, found, of_key, key)
+                _value(names, found, of_value, inner)
+            for item in value.items if isinstance(value, SequenceNode) else ():  # with keys that are no texts
+                for part, of_part in (("key", of_key), ("value", of_value)):
+                    if (inside := item.get(part)) is not None:
+                        _value(names, found, of_part, inside)
+        case (found, Enum(name=name, enumerators=enumerators)) if isinstance(value, Scalar):
+            if any(one.name == value.lexeme for one in enumerators):
+                names.use((kinds.ENUMERATOR, found.module.path, name, value.lexeme), _inside(value))
+        case (found, Struct() as struct):
+            _members(names, found, struct, value)
+
+
+def _members(names: Names, scope: LinkedModule, definition: object, value: Node) -> None:
+    """The members of a struct or exception in a value."""
+    members = (
+        {one.name: one.type for one in definition.members} if isinstance(definition, Struct | ExceptionType) else {}
+    )
+    for key, inner in _entries(value):
+        if key.lexeme in members and isinstance(definition, Struct | ExceptionType):
+            names.use((kinds.MEMBER, scope.module.path, definition.name, key.lexeme), _inside(key))
+            _value(names, scope, members[key.lexeme], inner)
+
+
+def _inside(word: Scalar) -> Span:
+    """A word without its quotes."""
+    return word.span.inside(word.lexeme, 0, len(word.lexeme))
 
 
 def _entries(node: Node | None) -> Iterator[tuple[Scalar, Node]]:

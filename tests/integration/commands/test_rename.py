@@ -97,6 +97,38 @@ def test_a_renamed_interface_takes_the_identities_in_proxies_along(
     assert "connect: {Limb: arm}" in robot, "an entry has a name of its own"
 
 
+def test_what_values_in_scripts_name_is_renamed(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    """Members, also of exceptions and inside lists and maps, enumerators and exceptions."""
+    write_tree(
+        ws,
+        {
+            "interfaces/Eye.idsl.yaml": (
+                "module: RoboCompEye\n"
+                "types:\n  Mode: {enum: [idle, moving]}\n  P: {struct: {xx: int, mode: Mode}}\n  Ps: {sequence: P}\n"
+                "  ByName: {map: {key: string, value: Mode}}\n  ByMode: {map: {key: Mode, value: P}}\n"
+                "exceptions: {Lost: {struct: {where: P}}}\n"
+                "interfaces:\n  Eye:\n    methods:\n      look: {out: {ps: Ps, modes: ByName, of: ByMode}, returns: Mode, throws: [Lost]}\n"
+                "topics: {Seen: {methods: {saw: {in: {p: P}}}}}\n"
+            ),
+            "eye.mock.yaml": (
+                "interfaces:\n  Eye:\n    methods:\n      look:\n"
+                "        - {out: {ps: [{xx: 1, mode: moving}], modes: {left: 'moving'}, of: {moving: {xx: 2, mode: idle}}}, returns: moving}\n"
+                '        - throws: {Lost: {where: {xx: 3, mode: "moving"}}}\n'
+                "topics:\n  Seen: {messages: [{saw: {p: {xx: 4, mode: moving}}}]}\n"
+            ),
+        },
+    )
+    before = (ws / "eye.mock.yaml").read_text()
+    assert rcyaml("check").exit_code == 0
+    for old, new in (("xx", "yy"), ("moving", "running"), ("Lost", "Gone"), ("Gone.where", "there")):
+        ran = rcyaml("rename", old, new)
+        assert ran.exit_code == 0, ran.output
+        assert rcyaml("check").exit_code == 0, old
+    after = (ws / "eye.mock.yaml").read_text()
+    renamed = before.replace("xx", "yy").replace("moving", "running").replace("Lost", "Gone").replace("where", "there")
+    assert after == renamed
+
+
 @pytest.mark.parametrize("entry", ["arm: {component: arm}", "arm{i}: {component: arm, instances: 2}"])
 def test_the_ports_of_a_first_config_stay_those_that_nobody_chose(
     ws: Path, rcyaml: Callable[..., Result], entry: str
