@@ -240,6 +240,14 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
         return self.config.pem if self.config else ""
 
     @property
+    def listening(self) -> tuple[Endpoint, ...]:
+        """Its endpoints, and the TCP port on which it listens when it is ready."""
+        port = self.ready.port
+        if not port or any(one.port == port and one.protocol != "udp" for one in self.endpoints):
+            return self.endpoints
+        return (*self.endpoints, Endpoint("", "", port, f"tcp -p {port}", span=self.span))
+
+    @property
     def is_server(self) -> bool:
         """Whether it runs until it is stopped; a task is done when it exits with 0. By default, a process that serves
         something is a server, as is every component."""

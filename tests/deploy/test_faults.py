@@ -123,10 +123,13 @@ def test_a_running_process_that_is_not_ready_is_reported_by_each_up(place: Place
     assert place.observe()["b"].state == RUNNING
 
 
-def test_a_port_that_another_program_uses(place: Place, free_port: Ports) -> None:
+@pytest.mark.parametrize("is_served", [True, False])
+def test_a_port_that_another_program_uses(place: Place, free_port: Ports, is_served: bool) -> None:
+    """It serves there, or is ready when it listens there: the other program must not make it ready."""
     port = free_port()
     with socket.create_server(("127.0.0.1", port)):
-        served = listener("a", port, endpoints=(Endpoint("Laser", "laser", port, f"tcp -p {port}"),))
+        endpoints = (Endpoint("Laser", "laser", port, f"tcp -p {port}"),) if is_served else ()
+        served = listener("a", port, endpoints=endpoints)
         result = place.up(sleeper("b"), served)
     assert codes(result) == ["RC7001"]
     assert f"(pid {os.getpid()})" in result.diagnostics[0].message

@@ -70,7 +70,7 @@ def _conflicts(network: Network) -> Iterator[Diagnostic]:
         if named and process.host not in named:
             continue  # its host is unknown, which is reported already
         machine = _machine(network.address(process))
-        for endpoint in process.endpoints:
+        for endpoint in process.listening:
             if not endpoint.port:
                 continue
             parsed = parse_endpoint(endpoint.text)
@@ -112,4 +112,4 @@ def _machine(address: str, *, keep: bool = False) -> str:
 
 
 def _name(process: Process, endpoint: Endpoint) -> str:
-    return f"'{process.name}' ({endpoint.interface})"
+    return f"'{process.name}' ({endpoint.interface})" if endpoint.interface else f"'{process.name}'"

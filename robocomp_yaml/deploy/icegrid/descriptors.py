@@ -52,7 +52,7 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
     restart rule."""
     process = spec.process
     words = [process.name, files.folder, *(f"f{path}" for path in process.folders)]
-    ports = {one.port for one in process.endpoints if one.port and one.protocol != "udp"}
+    ports = {one.port for one in process.listening if one.port and one.protocol != "udp"}
     environment = [
         f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}",
         f"RCYAML_ALIVE={alive_rule(process)}", f"RCYAML_PORTS={' '.join(map(str, sorted(ports)))}",

@@ -56,12 +56,12 @@ async def used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running
         (one.spec.address, endpoint.port)
         for one in running.values()
         if one.spec and one.state not in (STOPPED, *OVER)
-        for endpoint in one.spec.process.endpoints
+        for endpoint in one.spec.process.listening
     }
     ports = [
         (spec, endpoint)
         for spec in specs
-        for endpoint in spec.process.endpoints
+        for endpoint in spec.process.listening
         if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
     ]
     answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in ports))

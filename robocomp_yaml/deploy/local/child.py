@@ -190,8 +190,9 @@ class ChildProcess:
             self._after_end(is_failure=True)
 
     def _ports(self) -> set[int]:
-        endpoints = self.spec["process"]["endpoints"]
-        return {one["port"] for one in endpoints if one["port"] and one["protocol"] != "udp"}
+        process = self.spec["process"]
+        served = {one["port"] for one in process["endpoints"] if one["port"] and one["protocol"] != "udp"}
+        return served | {process["ready"]["port"]} - {None}
 
     def _wait_for_ports(self, taken: dict[int, list[int]]) -> None:
         """Waits until the ports of the process are free: it would only fail again, and be given up."""

@@ -42,7 +42,7 @@ def whole_environment_of(process: Process) -> dict[str, str]:
 
 def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagnostic]:
     """The obstacles of all these processes. `own` are pids that are ignored, because they will have ended before."""
-    ports = {e.port for spec in specs for e in spec.process.endpoints if e.protocol != "udp"}
+    ports = {e.port for spec in specs for e in spec.process.listening if e.protocol != "udp"}
     taken = {
         port: [pid for pid in pids if pid not in own]
         for port, pids in procfs.listeners(ports).items()
@@ -62,7 +62,7 @@ class CheckedSpecs:
 
     def note(self, specs: Iterable[ProcessSpec]) -> None:
         # A process that waits for others is checked again: they may use its port by then.
-        self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.endpoints)}
+        self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.listening)}
         self._until = time.monotonic() + _VALID
 
     def require(self, spec: ProcessSpec) -> None:
@@ -90,7 +90,7 @@ def elsewhere(network: Network) -> Diagnostic | None:
 def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
     """One diagnostic for each program that uses a port of the process, at its first such port."""
     reported: set[int] = set()
-    for endpoint in spec.process.endpoints:
+    for endpoint in spec.process.listening:
         if endpoint.port in taken and endpoint.protocol != "udp":
             pid = next(iter(taken[endpoint.port]), 0)
             if pid in reported:

@@ -41,6 +41,7 @@ def two(first: str, second: str, before: str = "") -> Tree:
         ("{program: sh, endpoints: {Laser: tcp -p 10001}}", 39),
         ("{program: sh, endpoints: {Laser: ssl -p 10001}}", 39),
         ('{program: sh, endpoints: {Laser: "tcp -h 127.0.0.1 -p 10001"}}', 39),
+        ("{program: sh, ready: {port: 10001}}", 3),
     ],
 )
 def test_two_processes_on_one_port(found: Check, second: str, column: int) -> None:
