@@ -16,7 +16,7 @@ from robocomp_yaml.deploy import folder, history, limits, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import DeployFailed, Line
+from robocomp_yaml.deploy.engine import KILLED, DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, engine_of, make_engine
 from robocomp_yaml.deploy.install import installed
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
@@ -84,6 +84,12 @@ class Deployment:
     @property
     def diagnostics(self) -> list[Diagnostic]:
         return self.placed([*self._diagnostics, *self._engine.notes])
+
+    @property
+    def was_killed(self) -> bool:
+        """Whether what supervised it was killed, with all its processes, and nobody has started or stopped it since."""
+        killed = (one for one in self._engine.notes if one.code == deploying.NOT_SUPERVISED.id)
+        return any(one.fact("what") == KILLED for one in killed)
 
     @property
     def installed(self) -> list[str]:

@@ -167,7 +167,7 @@ class DeploySession(msgspec.Struct):
         if running := renamed.under_another_name(self.network):
             terminal.say(running, err=True)
         found = self.run(lambda: self.deployment.status(*names))
-        code = 0 if all(one.is_as_desired for one in found) else 1
+        code = 0 if all(one.is_as_desired for one in found) and not self.deployment.was_killed else 1
         if self.format_ == "json":
             self.end(
                 {"processes": json_data.status_data(self.network, found), "installed": self.deployment.installed}, code

@@ -75,6 +75,25 @@ def test_supervisor_and_keeper_go_on_with_the_next_command(place: Place, rcyaml:
     assert not programs(place.folder, "base")
 
 
+def test_a_killed_supervisor_is_reported_until_the_next_up_or_down(place: Place, rcyaml: Rcyaml) -> None:
+    """Its processes ended with it: nobody wanted that."""
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
+    document = f"{place.root}/robot.ddsl.yaml"
+    for then in ("up", "down"):
+        assert rcyaml("deploy", "up", document).exit_code == 0
+        for pid in place.keeper_and_supervisor():
+            os.kill(pid, signal.SIGKILL)
+        until(lambda: not programs(place.folder, "base"), "all end")
+        for _ in range(2):
+            said = rcyaml("deploy", "status", document)
+            assert said.exit_code == 1 and "warning[RC7007]: the supervisor of this deployment was killed" in said.stderr
+            assert rcyaml("deploy", "plan", document).exit_code == 0
+        assert rcyaml("deploy", then, document).exit_code == 0
+        said = rcyaml("deploy", "status", document)
+        assert said.exit_code == 0 and "RC7007" not in said.stderr
+        assert rcyaml("deploy", "down", document).exit_code == 0
+
+
 def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
     place.up(sleeper("a"))
     (pid,) = programs(place.folder, "a")

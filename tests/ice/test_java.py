@@ -200,6 +200,15 @@ def test_what_cannot_start_reports_why(
     assert said in running.output and "Exception" not in running.output, running.output
 
 
+@pytest.mark.parametrize("word", ["own config", "./own config", "--Ice.Config=own config"])
+def test_the_path_of_a_configuration_is_relative_to_the_working_folder(
+    built: Callable[[str], Path], tmp_path: Path, word: str
+) -> None:
+    (tmp_path / "own config").write_text("period.compute=often\n")
+    done = subprocess.run([built("Server") / "bin/Server", word], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1 and "period.compute must be a whole number (ms), and is 'often'" in done.stderr
+
+
 def test_what_the_launcher_lacks_is_reported(built: Callable[[str], Path], tmp_path: Path) -> None:
     """Without Java, without Ice, without a build; each message has a hint."""
     root = tmp_path / "server"

@@ -95,6 +95,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
         try:
             if registry is None:
                 record.clear_up(network.folder)  # processes that run although their folder was removed
+                record.remove(network.folder)
             own_folder.make(network.folder)
             settings.make_key(files)
             registry = Registry(address, free_port(address))

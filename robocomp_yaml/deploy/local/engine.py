@@ -66,6 +66,7 @@ class LocalEngine:
                         deploying.NOT_SUPERVISED.at(Span(network.path), what=KILLED, more="\n".join(left))
                     )
             if connection is None and create:
+                record.remove(network.folder)
                 if found := elsewhere(network):
                     raise DeployFailed(found)
                 own_folder.make(network.folder)

@@ -73,6 +73,7 @@ def end_hung(folder: str) -> list[str]:
         while _keeper(folder) and time.monotonic() < until:
             time.sleep(0.01)
     clear_up(folder)
+    remove(folder)
     return names
 
 
@@ -86,7 +87,8 @@ def is_there(folder: str) -> bool:
 
 
 def clear_up(folder: str) -> list[str]:
-    """Kills the processes that a killed supervisor left when its keeper was killed, too. Returns their commands."""
+    """Kills the processes that a killed supervisor left when its keeper was killed, too. Returns their commands. The
+    record stays: until the deployment is started again or taken down, each command says what happened."""
     left = {pid: procfs.command_line(pid) for pid in procfs.marked(folder) if pid != os.getpid()}
     until = time.monotonic() + _PATIENCE
     while (rest := [pid for pid in left if _runs(pid)]) and time.monotonic() < until:
@@ -94,7 +96,6 @@ def clear_up(folder: str) -> list[str]:
             with contextlib.suppress(OSError):
                 os.kill(pid, signal.SIGKILL)
         time.sleep(0.01)
-    remove(folder)
     return list(left.values())
 
 
