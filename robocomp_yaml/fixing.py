@@ -3,7 +3,8 @@
 A fix has to prove itself: its diagnostic is gone, no document is understood less than before, and in the end there are
 no more errors than before. A fix that fails is left, with the reason. A document that is understood better than before
 may reveal more errors. A safe fix is not blamed for them, nor is a guess after which the whole document is understood.
-Any other guess is kept only if these errors are fixed, too.
+Any other guess, and a safe fix that reveals more errors without that, is kept only if these errors are fixed, too. Of
+two fixes that undo each other, none is applied.
 
 This module does not use the disk: documents are checked with the contents that they would have.
 """
@@ -78,6 +79,15 @@ class _UncertainFix(msgspec.Struct, frozen=True):
     fixed: int
 
 
+class _Step(msgspec.Struct, frozen=True):
+    """A state of the documents, and the fixes that were applied to it."""
+
+    look: CheckedDocuments
+    changed: dict[str, bytes]
+    fixed: int
+    batch: Batch
+
+
 class _FixRounds:
     def __init__(self, look: CheckWith, may_change: Collection[str], unsafe: bool) -> None:
         self.look, self.may_change, self.unsafe = look, may_change, unsafe
@@ -86,6 +96,8 @@ class _FixRounds:
         self.batch_size = 1 << 20  # fixes that are tried at once: fewer if they do not go together
         self.rejected: set[tuple[Key, Fix]] = set()
         self.uncertain: list[_UncertainFix] = []
+        self.first = self.result.look.contents
+        self.steps: dict[frozenset[tuple[str, bytes]], _Step] = {}  # by the changed contents
 
     def one(self) -> bool:
         """Runs one round. Returns False if nothing is left to try."""
@@ -99,6 +111,11 @@ class _FixRounds:
         after = self.look(changed_next)
         self.checks += 1
         reason, is_uncertain = _verdict(now, after, batch)
+        if not reason and (former := self.steps.get(self._state(changed_next))) is not None:
+            if len(batch) == 1:
+                self._go_back(former)
+                return True
+            reason = "they would undo other fixes"
         if reason and len(batch) > 1:
             self.batch_size = len(batch) // 2
         elif reason:
@@ -107,10 +124,22 @@ class _FixRounds:
         else:
             if is_uncertain:
                 self.uncertain.append(_UncertainFix(*batch[0], now, changed, len(self.result.fixed)))
+            self.steps[self._state(changed)] = _Step(now, changed, len(self.result.fixed), batch)
             self.result.look, self.result.changed = after, changed_next
             self.result.fixed += [AttemptedFix(diagnostic, fix) for diagnostic, fix in batch]
             self.batch_size = max(self.batch_size, 2) * 2
         return True
+
+    def _state(self, changed: Mapping[str, bytes]) -> frozenset[tuple[str, bytes]]:
+        return frozenset((path, content) for path, content in changed.items() if self.first.get(path) != content)
+
+    def _go_back(self, former: _Step) -> None:
+        """Goes back to a state that a fix would lead to again: two fixes undo each other. None of them is applied."""
+        self.result.look, self.result.changed = former.look, former.changed
+        del self.result.fixed[former.fixed :]
+        self.batch_size = 1
+        if len(former.batch) == 1:
+            self._reject(*former.batch[0], "there would be another error, whose fix undoes this one")
 
     def _reject(self, diagnostic: Diagnostic, fix: Fix, reason: str) -> None:
         self.rejected.add((_key(diagnostic), fix))
@@ -203,7 +232,7 @@ def _verdict(before: CheckedDocuments, after: CheckedDocuments, batch: Batch) ->
     (_, fix), reason = batch[0], _more_errors(before, after)
     is_blind = any(before.levels.get(file) == UNREADABLE for file in files)  # the parser stopped at the first error
     if not reason or not any(steps):
-        return reason, False
+        return ("", True) if reason and fix.safe else (reason, False)
     is_understood = all(after.levels.get(file, UNDERSTOOD) == UNDERSTOOD for file in files)
     return "", not (fix.safe or is_blind or is_understood)
 

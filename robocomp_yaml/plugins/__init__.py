@@ -104,7 +104,7 @@ class Plugin(msgspec.Struct, frozen=True, eq=False):
             yield
         except (Faulty, Refused, passing):
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             hint = f"in {_location(error)}: report it to its authors, or remove it from `plugins:`"
             raise Faulty(
                 [codes.PLUGIN_FAILED.at(self.span, name=self.name, what=what, reason=reason_of(error), hint=hint)]

@@ -86,7 +86,9 @@ def test_a_killed_supervisor_is_reported_until_the_next_up_or_down(place: Place,
         until(lambda: not programs(place.folder, "base"), "all end")
         for _ in range(2):
             said = rcyaml("deploy", "status", document)
-            assert said.exit_code == 1 and "warning[RC7007]: the supervisor of this deployment was killed" in said.stderr
+            assert (
+                said.exit_code == 1 and "warning[RC7007]: the supervisor of this deployment was killed" in said.stderr
+            )
             assert rcyaml("deploy", "plan", document).exit_code == 0
         assert rcyaml("deploy", then, document).exit_code == 0
         said = rcyaml("deploy", "status", document)

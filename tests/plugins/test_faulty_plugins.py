@@ -198,14 +198,20 @@ def test_installing_it_makes_a_stamp_stale(rcyaml: Run, site: Path, tmp_path: Pa
     assert rcyaml("compile").returncode == 0
 
 
-def test_a_check_that_fails_is_told_with_the_rest(rcyaml: Run, site: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("fails", "reason"),
+    [("raise KeyError('no such thing')", "KeyError: 'no such thing'"), ("raise SystemExit(3)", "SystemExit: 3")],
+)
+def test_a_check_that_fails_is_told_with_the_rest(
+    rcyaml: Run, site: Path, tmp_path: Path, fails: str, reason: str
+) -> None:
     """What it found before, what others find, and where it failed."""
-    text = PAGE.replace("{code}", "ODD001") + "    raise KeyError('no such thing')\n"
+    text = PAGE.replace("{code}", "ODD001") + f"    {fails}\n"
     installed(site, "acme", {"checks/a": "mod"}, {"mod.py": text})
     workspace(tmp_path, "acme", **{"other.idsl.yaml": "module: M\nimports: [Nowhere]\n"})
     told = found(rcyaml("check", "--format", "json"))
     assert {*told} == {"RC0083", "ODD001", "RC1101"}
-    assert told["RC0083"]["message"] == "plug-in 'acme' failed: check 'a': KeyError: 'no such thing'"
+    assert told["RC0083"]["message"] == f"plug-in 'acme' failed: check 'a': {reason}"
     assert f"mod.py:{len(text.splitlines())}" in str(told["RC0083"]["hint"])
 
 

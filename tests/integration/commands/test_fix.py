@@ -349,6 +349,26 @@ def test_many_at_once(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert len(looks) < 40 and (tmp_path / IDSL).read_text() == bad
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_fixes_that_undo_each_other_are_left(rcyaml: Run, tmp_path: Path, end: str) -> None:
+    """One value is used as a number and as a text. All else is fixed, and a second run changes nothing."""
+    values = f'{VALUES}  speed: &s "1"\n  name: *s  # as it is\n  loud: yes\n'.replace("\n", end)
+    files = {CDSL: HEAD, "speech.pdsl.yaml": PDSL, "etc/config.yaml": values}
+    for option in ("--fix", "--unsafe-fixes"):
+        after = fixed(rcyaml, tmp_path, files, "etc/config.yaml", option)
+        assert after == values.replace("yes", "true")
+        said = rcyaml("check", option).stdout
+        assert said.count("left ") == 1 and "whose fix undoes this one" in said and "fixed" not in said
+
+
+def test_a_safe_fix_may_reveal_what_is_fixed_too(rcyaml: Run, tmp_path: Path) -> None:
+    wrong = "module: M\nInterfaces:\n  A: {methods: {go: {idempotent: yes}, stop: {idempotent: yes}}}\n"
+    right = wrong.replace("Interfaces", "interfaces").replace("yes", "true")
+    assert fixed(rcyaml, tmp_path, {IDSL: wrong}, IDSL) == right
+    worse = wrong.replace("yes", "maybe")
+    assert fixed(rcyaml, tmp_path, {IDSL: worse}, IDSL) == worse, "there would be more errors"
+
+
 def test_diff_shows_and_writes_nothing(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(
         tmp_path, {"Laser.idsl.yaml": LASER, IDSL: "module: M\r\nimports: [Laser, Laser]\r\ntypes: {A: {sequence: x}}"}
