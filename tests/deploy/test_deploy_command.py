@@ -305,6 +305,36 @@ def test_an_interrupted_up_is_said_in_json(robot: Path, place: Place) -> None:
     assert up.wait(20) == 130
 
 
+SLOW = """\
+deployment: Robot
+components:
+  arm: {program: bash, args: [-c, "trap 'sleep 2; exit 0' TERM; echo up; while :; do sleep 0.1; done"], role: server, ready: {log: up}}
+  base: {program: sleep, args: ["600"], role: server}
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_up_after_an_interrupted_down_waits_for_its_stops(
+    robot: Path, place: Place, rcyaml: Rcyaml, number: int
+) -> None:
+    """Else it would find a process as desired that ends a moment later."""
+    write_tree(robot, {"robot.ddsl.yaml": SLOW})
+    deploy(rcyaml, "up")
+    before = place.pids()
+    down = start(robot, "down", "robot.ddsl.yaml", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    with down.stdout as output:  # type: ignore[union-attr]
+        assert output.readline() == b"base  stopped\n"
+        down.send_signal(number)
+        assert down.wait(20) == (130 if number == signal.SIGINT else -signal.SIGKILL)
+    status = rcyaml("deploy", "status", "robot.ddsl.yaml")
+    assert status.exit_code == 1 and "it is being stopped" in status.stdout
+    assert "2 to start" in rcyaml("deploy", "plan", "robot.ddsl.yaml").stdout
+    deploy(rcyaml, "up")
+    after = place.pids()
+    assert all(after.values()) and not {*before.values()} & {*after.values()}
+    deploy(rcyaml, "down")
+
+
 def test_up_after_a_killed_up(robot: Path, place: Place, rcyaml: Rcyaml) -> None:
     up = coming_up(robot)
     up.kill()

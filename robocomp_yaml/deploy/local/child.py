@@ -47,7 +47,7 @@ class ChildProcess:
         self._timer: asyncio.TimerHandle | None = None
         self._exited = asyncio.Event()
         self._output = -1
-        self._is_stopping = False
+        self.is_stopping = False
         self._is_replaced = False
         self._taken = 0  # tries to restart it while its ports were used
 
@@ -79,7 +79,7 @@ class ChildProcess:
         if not self.pid:
             self._set_state(STOPPED)
             return
-        self._is_stopping = True
+        self.is_stopping = True
         try:
             self._terminate()
             deadline = self._loop.time() + within
@@ -95,7 +95,7 @@ class ChildProcess:
                 await asyncio.sleep(0.02)
             await asyncio.wait_for(self._exited.wait(), _AFTER_KILL)
         finally:
-            self._is_stopping = False
+            self.is_stopping = False
         self.root = 0
         self._set_state(STOPPED)
 
@@ -140,7 +140,7 @@ class ChildProcess:
         code = os.waitstatus_to_exitcode(status)
         self.last_exit = _in_words(code)
         self._exited.set()
-        if self._is_stopping:
+        if self.is_stopping:
             self.log.note(f"stopped: {self.last_exit}")
             return
         _signal(self._families.now().get(self.root, set()), signal.SIGKILL)

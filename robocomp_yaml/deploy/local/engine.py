@@ -51,6 +51,7 @@ class LocalEngine:
         self._observed: dict[str, tuple[dict[str, Any], ProcessSpec | None]] = {}
         self._cleared = CheckedSpecs()
         self._has_staged = False
+        self._has_settled = False  # after the first observation, all stops are those of this command
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
@@ -106,7 +107,8 @@ class LocalEngine:
         registered.keep(registered.entry_of(self._network, self.name, pid, found.start if found else 0))
 
     async def observe(self, *, use: bool = False) -> dict[str, Running]:
-        answer = await self._ask("", "observe")
+        answer = await self._ask("", "observe", settled=not (use or self._has_settled))
+        self._has_settled = self._has_settled or not use
         found = [_running(entry, self._spec_of(entry["spec"])) for entry in answer["processes"]]
         return {running.name: running for running in found}
 

@@ -137,6 +137,10 @@ class _Service:
         return {"protocol": PROTOCOL, "pid": os.getpid(), "restores": True}
 
     async def do_observe(self, request: Request) -> Request:
+        """All processes; if `settled`, when no stop is pending, such as that of an interrupted command."""
+        for child in [*self.children.values()] if request.get("settled") else ():
+            async with child.lock:
+                pass
         now, families = asyncio.get_running_loop().time(), self._families.now()
         found = []
         for child in self.children.values():
@@ -145,6 +149,8 @@ class _Service:
             is_asked = child.spec["process"]["name"] in self._watches
             if not is_asked and child.pid in members and self._families.alive[child.pid].is_halted:
                 facts["not_alive"] = "it is halted"
+            if child.is_stopping:
+                facts["not_alive"] = "it is being stopped"
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})
