@@ -195,8 +195,10 @@ def _plain(kind: Kind, text: Any, top: Span) -> Node:
         if data is not None:
             made.data = data
         elif not kind.accepts_any_text:
-            guess = scalar_at(span, str(text))
-            made.data = guess.data if isinstance(guess.data, (bool, int, float)) else str(text)
+            guess = scalar_at(span, str(text)).data
+            # Only to say what it is instead: documents have more ways to write a number than components read.
+            is_other = isinstance(guess, (bool, int, float)) and kind.read(str(guess)) is None
+            made.data = guess if is_other else str(text)
     return made
 
 

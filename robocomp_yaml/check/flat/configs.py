@@ -47,7 +47,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 fault = replace(fault, fixes=())
                 yield fault if flat.is_written else fault.as_severity(WARNING)
             if flat.is_written:
-                yield from _values(found, linked)
+                yield from _values(found, linked, program)
                 yield from _removed(flat, linked)
                 yield from _moved(flat, linked, program)
 
@@ -117,12 +117,15 @@ def _moved(flat: FlatConfig, linked: LinkedComponent, program: Program) -> Itera
             yield codes.MOVED.at(text.span, port=port.name, component=other.component.name, hint=hint)
 
 
-def _values(found: FlatValues, linked: LinkedComponent) -> Iterator[Diagnostic]:
+def _values(found: FlatValues, linked: LinkedComponent, program: Program) -> Iterator[Diagnostic]:
     from robocomp_yaml.parameters.layers.effective import document_faults
 
     root = linked.parameters.parameters.root
+    faults = list(document_faults(found.layer, linked.parameters))
+    if not faults:  # missing values may come from elsewhere
+        faults = [one for one in program.effective(found.layer)[1] if one.code == codes.CONSTRAINT.id]
     # A fix edits documents, and this is none.
-    yield from (replace(fault, fixes=()) for fault in document_faults(found.layer, linked.parameters))
+    yield from (replace(fault, fixes=()) for fault in faults)
     yield from (replace(fault, fixes=()) for fault in texts_of_ice(found.layer))
     for what, name, span in found.unknown_ports.values():
         ports = linked.requires if what == "proxy" else linked.implements

@@ -95,6 +95,25 @@ def test_a_file_that_rcyaml_did_not_write_is_not_judged() -> None:
     assert not found("speed=7\nsped=1\n")
 
 
+@pytest.mark.parametrize("text", ["0x10", "0o7", "5e0", "4.9999999999999999999", "1_0", "+3", "true", ".5e1"])
+def test_numbers_are_judged_as_the_component_reads_them(text: str) -> None:
+    """YAML has more ways to write them."""
+    from robocomp_yaml.semantics.plain import PlainKind  # the judge of the component
+
+    judged = found(f"{HEAD}grip.force={text}\n")
+    kind = PlainKind("int")
+    assert [one.code for one in judged] == (["RC3302"] if kind.read(text) is None else [])
+
+
+def test_constraints_are_judged_without_a_deployment() -> None:
+    pdsl = PDSL + "constraints: [{that: speed < 0.9 or side == 'left', else: too fast}]\n"
+    (one,) = found(f"{HEAD}side=right\nspeed=0.95\n", **{"arm.pdsl.yaml": pdsl})
+    assert (one.code, one.message) == ("RC3308", "too fast")
+    assert not found(f"{HEAD}side=right\nspeed=0.5\n", **{"arm.pdsl.yaml": pdsl})
+    needed = pdsl.replace("default: 0.5, unit", "unit")
+    assert not found(f"{HEAD}side=right\n", **{"arm.pdsl.yaml": needed}), "it may be set elsewhere"
+
+
 def test_no_fix_edits_it() -> None:
     assert not found(f"{HEAD}Speed=0.3\n")[0].fixes
 
