@@ -120,7 +120,7 @@ def _in_documents(analysis: Analysis, names: Names, defined: DefinedName, name: 
 
 def _spelled(text: DocumentText, span: Span, old: str, new: str) -> list[Edit]:
     written = text.text[text.index(span.line, span.column) : text.index(span.end_line, span.end_column)]
-    if INDEX in old and written != old:  # one of several instances
+    if INDEX in old and old not in written:  # one of several instances
         head, tail = old.split(INDEX, 1)
         number = written[len(head) : len(written) - len(tail)]
         old, new = written, new.replace(INDEX, number)

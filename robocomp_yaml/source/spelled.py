@@ -127,17 +127,19 @@ class DocumentText:
         node = self._scalar(start)
         begin, finish = (self._inner(node)) if node is not None else (start, end)
         is_whole = node is not None and node.lexeme == word
+        # Braces that a text has inside, such as the `{i}` of instances, need no quotes in another text there, either.
+        letters = meant.replace("{", "").replace("}", "") if "{" in word and meant[:1] not in "{}" else meant
         if is_whole and (is_plain := not _is_quoted(self.text, begin)):
             if self.text[begin:finish] == word:
-                return [self.edit(begin, finish, meant if _is_text(meant) else quoted(meant))]
+                return [self.edit(begin, finish, meant if _is_text(letters) else quoted(meant))]
         elif is_whole and not is_plain:
             inner = self.text[begin + 1 : finish - 1]
-            if inner == word and _IN_A_TEXT.fullmatch(meant):
+            if inner == word and _IN_A_TEXT.fullmatch(letters):
                 return [self.edit(begin + 1, finish - 1, meant)]
             if self.text[begin] in "'\"":
                 return [self.edit(begin, finish, (single_quoted if self.text[begin] == "'" else quoted)(meant))]
         at = self._where(max(start, begin), begin, finish, word)
-        if at is None or not _IN_A_TEXT.fullmatch(meant):
+        if at is None or not _IN_A_TEXT.fullmatch(letters):
             return []
         return [self.edit(at, at + len(word), meant)]
 

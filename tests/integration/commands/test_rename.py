@@ -129,6 +129,24 @@ def test_what_values_in_scripts_name_is_renamed(ws: Path, rcyaml: Callable[..., 
     assert after == renamed
 
 
+def test_an_entry_with_instances_is_renamed_and_back(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    robot = (
+        "deployment: Robot\ncomponents:\n  arm{i}: {component: arm, instances: 2}\n"
+        "  legs{i}: {program: sh, instances: 2, after: [\"arm{i}\"], connect: {Arm: 'arm{i}'}}\n"
+        "  last: {program: sh, after: [arm0, legs1]}\ngroups: {all: {components: ['arm{i}']}}\n"
+    )
+    (ws / "robot.ddsl.yaml").write_text(robot)
+    before = rcyaml("check").output
+    for old, new, after in (
+        ("arm{i}", "limb{i}", robot.replace("arm{i}", "limb{i}").replace("arm0", "limb0")),
+        ("limb{i}", "arm{i}", robot),
+    ):
+        ran = rcyaml("rename", f"entry:{old}", new)
+        assert ran.exit_code == 0, ran.output
+        assert (ws / "robot.ddsl.yaml").read_text() == after
+    assert rcyaml("check").output == before
+
+
 @pytest.mark.parametrize("entry", ["arm: {component: arm}", "arm{i}: {component: arm, instances: 2}"])
 def test_the_ports_of_a_first_config_stay_those_that_nobody_chose(
     ws: Path, rcyaml: Callable[..., Result], entry: str
