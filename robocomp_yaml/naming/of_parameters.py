@@ -100,15 +100,16 @@ class ParameterTree:
         return (), ()
 
     def step(
-        self, spec: TypeSpec | None, outer: tuple[str, ...], name: str, span: Span
+        self, spec: TypeSpec | None, outer: tuple[str, ...], name: str, span: Span, *, is_in_code: bool = False
     ) -> tuple[TypeSpec, tuple[str, ...]] | None:
-        """Uses the member of a type, None for all parameters. Returns the member's type."""
+        """Uses the member of a type, None for all parameters. Returns the member's type. Expressions have the names of
+        members `is_in_code`: one that `as:` sets stays when the member is renamed."""
         members, head = self._inside(spec, outer)
-        member = next((one for one in members if one.name == name), None)
+        member = next((one for one in members if ((one.code_name if is_in_code else "") or one.name) == name), None)
         if member is None:
             return None
-        self.names.use((*head, name), span)
-        return member.spec, (*outer, name)
+        self.names.use((*head, member.name), span, is_path=member.name != name)
+        return member.spec, (*outer, member.name)
 
     def path(self, text: str, span: Span) -> tuple[TypeSpec, tuple[str, ...]] | None:
         """Uses all that a path names: `camera.width`, `motors[0].speed`. Returns the type at its end."""
@@ -177,10 +178,10 @@ def _expression(
 
     match part:
         case NameExpression(name=name, at=at):
-            return variables[name] if name in variables else tree.step(None, (), name, span(at, name))
+            return variables[name] if name in variables else tree.step(None, (), name, span(at, name), is_in_code=True)
         case Attribute(of=of, name=name, at=at):
             found = _expression(tree, of, node, variables)
-            return tree.step(*found, name, span(at, name)) if found is not None else None
+            return tree.step(*found, name, span(at, name), is_in_code=True) if found is not None else None
         case Each(source=source, variable=variable):
             found = _expression(tree, source, node, variables)
             element = (found[0].element, found[1]) if found is not None and found[0].element is not None else None

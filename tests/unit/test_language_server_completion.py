@@ -85,12 +85,19 @@ def test_what_is_offered(file: str, marked: str, expected: list[str], end: str) 
         ("  - sp|eed/2-1 < 3", (5, 10), {"speed"}),
         ('  - {that: "speed < 3 and camera.w|", else: no}', (27, 35), {"camera.width"}),
         ("  - that: all(j.|", (15, 17), {"j.n"}),
+        ("  - that: all(j.| for j in joints)", (15, 17), {"j.n"}),
+        ("  - that: all(j.| for j in arms[0].joints)", (15, 17), {"j.n"}),
+        ("  - that: all(| for j in joints)", (15, 15), {"j", "joints", "view2d", "arms"}),
+        ("  - arms[1].|", (5, 13), {"arms[1].joints"}), ("  - camera.|", (5, 12), {"camera.width"}), ("  - vi|", (5, 7), {"view2d"}),
     ],
-)
+)  # fmt: skip
 def test_in_constraints(typed: str, columns: tuple[int, int], expected: set[str]) -> None:
     """The word alone is replaced; what begins otherwise is filtered by the editor."""
     files = WORKSPACE | {
-        "arm/arm.pdsl.yaml": f"types: {{Joint: {{struct: {{n: int}}}}}}\n{WORKSPACE['arm/arm.pdsl.yaml']}constraints: [speed < 9]\n"
+        "arm/arm.pdsl.yaml": (
+            f"types: {{Joint: {{struct: {{n: int}}}}, Arm: {{struct: {{joints: {{list: Joint}}}}}}}}\n{WORKSPACE['arm/arm.pdsl.yaml']}"
+            "  joints: {list: Joint}\n  arms: {list: Arm}\n  2d: {type: bool, default: true, as: view2d}\nconstraints: [speed < 9]\n"
+        )
     }
     analysis = analysed(files)
     before, _, behind = typed.partition("|")
@@ -99,7 +106,9 @@ def test_in_constraints(typed: str, columns: tuple[int, int], expected: set[str]
     found = {
         one.text for one in proposals(f"{ROOT}/arm/arm.pdsl.yaml", place, names_of(analysis), [], analysis.program)
     }
-    assert expected <= found
+    assert expected <= found and "2d" not in found
+    if ".|" in typed and typed != "  - that: all(j.|":
+        assert found == expected
 
 
 def test_modules_that_no_folder_of_the_search_path_has() -> None:

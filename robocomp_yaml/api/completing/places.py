@@ -14,7 +14,8 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 MARK = "rcyaml0cursor"
 _WORD = r"(?:[\w./-]|(?<=[\w\]])\[\d+\])*"  # with paths of parameters (`joints[0].vel`)
 _BEFORE, _BEHIND = re.compile(rf"{_WORD}\Z"), re.compile(_WORD)
-_OPERAND, _OPERAND_BEHIND = re.compile(r"[\w.]*\Z"), re.compile(r"[\w.]*")
+_OPERAND = re.compile(r"(?:[\w.]|(?<=[\w\]])\[\d+\])*\Z")
+_OPERAND_BEHIND = re.compile(r"[\w.]*")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
 _PIECE = re.compile(

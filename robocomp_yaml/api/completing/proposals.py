@@ -12,7 +12,7 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api.completing import deployments, machines, others, schema_keys, values
+from robocomp_yaml.api.completing import constraints, deployments, machines, others, schema_keys, values
 from robocomp_yaml.api.completing.paths import paths
 from robocomp_yaml.api.completing.places import TypedPlace, items_of, keys_of, siblings
 from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
@@ -25,7 +25,6 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import DefinedName, Names
-from robocomp_yaml.parameters.specification.expression import FUNCTIONS
 from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText
@@ -61,7 +60,7 @@ def proposals(
         case "pdsl":
             found = chain(
                 _in_parameters(place, known),
-                _in_constraint(path, place, known),
+                constraints.proposals(path, place, known, program),
                 _component_paths(path, place, known, "component"),
             )
         case "ddsl":
@@ -234,26 +233,6 @@ def _in_parameters(place: TypedPlace, known: Names) -> Iterator[Proposal]:
         yield from _enumerators(place, known)
     if not place.is_key and place.keys[-1:] in (("type",), ("list",), ("map",)):
         yield from (Proposal(name, names.TYPE, "type of this document") for name in keys_of(place.root, "types"))
-
-
-def _in_constraint(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
-    """Parameters by their paths, functions, and, behind a dot, members of records (`m.min` of `for m in motors`)."""
-    if not place.is_in_expression:
-        return
-    defined = {one.key: one for one in known.in_document(path)}
-
-    def dotted(one: DefinedName) -> str:
-        outer = defined.get(one.inside)
-        return f"{dotted(outer)}.{one.name}" if outer and outer.kind == names.PARAMETER else one.name
-
-    head, dot, _ = place.word.rpartition(".")
-    for one in defined.values():
-        if one.kind == names.PARAMETER:
-            yield Proposal(dotted(one), one.kind, one.says, one.doc)
-        elif one.kind == names.PARAMETER_MEMBER and dot:
-            yield Proposal(f"{head}.{one.name}", one.kind, one.says, one.doc)
-    if not dot:
-        yield from (Proposal(name, VALUE, "function", snippet=f"{name}(") for name in FUNCTIONS)
 
 
 def _of_imported(place: TypedPlace, known: Names, kind: str) -> Iterator[tuple[str, DefinedName]]:

@@ -129,6 +129,18 @@ def test_what_values_in_scripts_name_is_renamed(ws: Path, rcyaml: Callable[..., 
     assert after == renamed
 
 
+def test_a_name_in_code_stays_when_the_parameter_is_renamed(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    text = (
+        "component: arm.cdsl.yaml\nparameters:\n  2d: {type: bool, default: true, as: view2d}\n  on: {type: bool, default: true}\n"
+        "constraints: [view2d or on]\n"
+    )
+    (ws / "arm/arm.pdsl.yaml").write_text(text)
+    assert rcyaml("rename", "2d", "3d").exit_code == 0
+    assert rcyaml("rename", "on", "off").exit_code == 0
+    after = text.replace("2d:", "3d:").replace(" on:", " off:").replace("or on", "or off")
+    assert (ws / "arm/arm.pdsl.yaml").read_text() == after and rcyaml("check").exit_code == 0
+
+
 def test_an_entry_with_instances_is_renamed_and_back(ws: Path, rcyaml: Callable[..., Result]) -> None:
     robot = (
         "deployment: Robot\ncomponents:\n  arm{i}: {component: arm, instances: 2}\n"
