@@ -14,7 +14,7 @@ from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.api import which
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.deploy import interfaces
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
@@ -76,8 +76,8 @@ class Addresses:
         chosen = os.path.normpath(which.deployment(deployment, self._include)) if deployment else ""
         self.analysis: Analysis = analysis or analyse([self._root, *([chosen] if chosen else [])], include)
         self.program = self.analysis.program
-        found = [chosen] if chosen else which.deployments_of(".", self._include, self.analysis)
-        found = found or which.deployments_of(self._root, self._include, self.analysis)
+        around = (which.deployments_of(folder, self._include, self.analysis) for folder in (".", self._root))
+        found = [chosen] if chosen else next(filter(None, around), [])
         self._deployments = {path: self.program.deployments.get(os.path.realpath(path)) for path in found}
         if chosen and os.path.realpath(chosen) not in self.analysis.networks:
             raise Faulty(self.analysis.diagnostics, self.program.documents)
@@ -112,8 +112,7 @@ class Addresses:
         processes = [one for one in network.processes.values() if one.is_ice] if network else []
         names = [one.name for one in processes if self._of_process(one, "").doors]
         entries = [*(one for one in names if one.removesuffix(".gate") not in closed), *closed]
-        own = [linked.component.name for linked in self.program.components.values()]
-        return list(dict.fromkeys([*entries, *own]))
+        return list(dict.fromkeys([*entries, *self._own_names()]))
 
     def methods(self, name: str) -> list[str]:
         """The full names of all methods of somebody with a name, for completion."""
@@ -145,19 +144,27 @@ class Addresses:
         return endpoint
 
     def _refuse_several(self, text: str) -> None:
-        """Raises Refused for an entry of one of several deployments, unless it is the full name of a component."""
-        own = {linked.component.name for linked in self.program.components.values()}
-        if self._is_one or own & set(_prefixes(text)):
-            return
+        """Raises Refused for an entry of one of several deployments, and Faulty if one cannot be read, unless it is the
+        full name of a component."""
+        is_component = bool(self._own_names().keys() & set(_prefixes(text)))
+        if not is_component and os.sep not in text:
+            self.refuse_unread()  # one of them may have an entry of this name
         for path, linked in self._deployments.items():
-            if linked is not None and linked.find(text, "")[0]:
+            if not (is_component or self._is_one) and linked is not None and linked.find(text, "")[0]:
                 name = f"there are several deployments, and {path} has '{text.partition('.')[0]}'"
                 raise Refused(f"{name}: name one with --deployment {path}")
 
-    def _unknown(self, text: str) -> Peer:
+    def _own_names(self) -> dict[str, None]:
+        return {linked.component.name: None for linked in self.program.components.values()}
+
+    def refuse_unread(self) -> None:
+        """Raises Faulty if errors leave a deployment without a network."""
         self._refuse_errors(
             {path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks}
         )
+
+    def _unknown(self, text: str) -> Peer:
+        self.refuse_unread()
         known = self.names()
         first = text.partition(".")[0] or text
         otherwise = (
@@ -291,8 +298,7 @@ class Addresses:
         """The network that serves something at the address of a proxy; None if there is none in the documents."""
         found = proxy_at(proxy)
         at = {(_machine(one.host), one.port) for one in (found.endpoints if found else ())}
-        networks = [self.network, *self.analysis.networks.values()]
-        for network in (one for one in networks if one is not None):
+        for network in filter(None, (self.network, *self.analysis.networks.values())):
             for process in network.processes.values():
                 served = (parse_endpoint(one.text) for one in process.endpoints if one.port)
                 if any((_machine(one.host or network.address(process)), one.port) in at for one in served if one):
@@ -370,16 +376,11 @@ class Addresses:
     def _some_of(self, peer: Peer) -> str:
         own = [one for one in peer.doors if one.scope is not common_behavior()] if peer.span.file else []
         names = [f"{peer.name}.{door.name}.{one.name}" for door in own or peer.doors for one in door.interface.methods]
-        if not names:
-            return "; it serves no interface of these documents"
-        return f"; known are {some(names, _MOST)}"
+        return f"; known are {some(names, _MOST)}" if names else "; it serves no interface of these documents"
 
     def _refuse_errors(self, files: set[str]) -> None:
         """Raises Faulty if one of these documents has errors."""
-        errors: list[Diagnostic] = [
-            one for one in self.analysis.diagnostics if one.severity == ERROR and one.span.file in files
-        ]
-        if errors:
+        if errors := [one for one in self.analysis.diagnostics if one.severity == ERROR and one.span.file in files]:
             raise Faulty(errors, self.program.documents)
 
 

@@ -115,6 +115,7 @@ class Topics:
                     if port.name == one.port:
                         yield one.topic, self._storm or one.proxy, one.source, one.is_out, port.scope, port.interface
             return
+        self.addresses.refuse_unread()
         if self.addresses.deployments:
             names = ", ".join(self.addresses.deployments)
             raise Refused(f"there are several deployments: {names}; name one with --deployment")

@@ -111,6 +111,18 @@ def test_errors_of_documents_are_told() -> None:
         Addresses("head.ddsl.yaml").method("eye.Lens.focus")
 
 
+def test_a_name_that_a_broken_deployment_may_have_is_no_component() -> None:
+    """`eye` is the folder of a component, too, but its own address may be that of another process."""
+    write_tree(Path(), {"head.ddsl.yaml": DEPLOYMENT + "components: [\n"})
+    with pytest.raises(Faulty) as found:
+        Addresses().peer("eye.Lens.focus")
+    assert [one.code for one in found.value.diagnostics] == ["RC0101"]
+    for own in ("Eye.Lens.focus", "./eye.Lens.focus"):
+        assert Addresses().peer(own).name == "Eye"
+    with pytest.raises(Faulty):
+        Addresses().refuse_unread()
+
+
 def test_a_closed_group_is_one_component() -> None:
     """What it offers has its own names; rules are enforced by a gate."""
     groups = "groups:\n  face: {components: [eye], expose: {Sharp: eye.Lens, Left: {member: eye, rate: 10}}}\n"
