@@ -437,16 +437,6 @@ def test_on_a_terminal_the_user_chooses(robot: Path, place: Place) -> None:
     place.down()
 
 
-def test_a_killed_supervisor_is_reported_once(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
-    deploy(rcyaml, "up")
-    os.kill(place.keeper_and_supervisor()[1], signal.SIGKILL)
-    place.wait_gone()
-    assert "RC7007" in deploy(rcyaml, "status").stderr
-    assert "RC7007" not in deploy(rcyaml, "status").stderr
-    assert deploy(rcyaml, "up").exit_code == 0
-    deploy(rcyaml, "down")
-
-
 def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(
         robot,
