@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
 from robocomp_yaml.diag.errors import Faulty, NotRenamed, Refused
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.registry import lazy_attributes
 
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic",
-    "DocumentEditor", "EditConflict", "Faulty", "File", "Fixing", "Line", "LivingWorkspace", "Migration", "Network",
+    "DocumentEditor", "EditConflict", "Faulty", "File", "Fix", "Fixing", "Line", "LivingWorkspace", "Migration", "Network",
     "NotRenamed", "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value", "Values",
     "Workspace", "change", "edit", "follow", "load", "migrate",
 ]  # fmt: skip
@@ -73,7 +74,10 @@ def load(
     """
     from robocomp_yaml.api.workspace import Workspace
 
-    texts = {path: text.encode() if isinstance(text, str) else text for path, text in (overlay or {}).items()}
+    texts = {
+        path: text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+        for path, text in (overlay or {}).items()
+    }
     return Workspace(paths or (".",), tuple(include), texts, on_read)
 
 

@@ -38,7 +38,7 @@ class LivingWorkspace:
         if text is None:
             self._unsaved.pop(real, None)
         else:
-            self._unsaved[real] = path, text.encode() if isinstance(text, str) else text
+            self._unsaved[real] = path, text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
 
     def refresh(self) -> None:
         """Files may have changed on the disk: they are read again, and `look` notices what has changed."""

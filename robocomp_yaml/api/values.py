@@ -197,7 +197,9 @@ class Values:
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
         """All effective values as Ice properties (`ice`) or TOML (`toml`), for programs. Secrets are hidden only if
-        `reveal` is off. Raises Faulty."""
+        `reveal` is off. Raises Refused for another form, and Faulty."""
+        if form not in ("ice", "toml"):
+            raise Refused(f"unknown form '{form}'; choose ice or toml")
         values = self._effective
         assert self._linked is not None
         if form == "toml":

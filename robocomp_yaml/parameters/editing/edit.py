@@ -22,6 +22,8 @@ from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
 _LINE = re.compile(r"(?<=\n)(?P<indent>[ ]*)(?P<body>[^\r\n]*?)[ \t]*(?=\r?\n|\Z)")
+_COMMENT = re.compile(r"(?<!\S)#")
+_QUOTED = re.compile(r"(?<![^\s\[\]{},:])(?:'(?:[^']|'')*'|\"(?:[^\"\\]|\\.)*\")", re.DOTALL)
 _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=\r?\n|\Z)")
 
 
@@ -124,6 +126,8 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
         return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
         raise NotEditable("the value spans several lines; set its elements, or edit the document", node)
+    if _COMMENT.search(_QUOTED.sub("", old)):
+        raise NotEditable("there are comments in the value; set its elements, or edit the document", node)
     return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 

@@ -144,3 +144,17 @@ def test_migrating_writes_nothing_before_apply(tmp_path: Path, monkeypatch: pyte
     migration.apply()
     assert api.load("old").check() == []
     assert {file.action for file in api.migrate("old").files} == {"unchanged"}
+
+
+def test_a_text_that_no_file_can_have_is_reported() -> None:
+    (found,) = api.load("a.idsl.yaml", overlay={"a.idsl.yaml": "module: \ud800\n"}).check()
+    assert (found.code, found.span.line, found.span.column) == ("RC0002", 1, 9)
+
+
+def test_values_have_two_forms_for_programs(tmp_path: Path) -> None:
+    (tmp_path / "p.pdsl.yaml").write_text("parameters: {a: {type: int, default: 1}}\n")
+    (tmp_path / "x.config.yaml").write_text("component: p.pdsl.yaml\nparameters: {a: 2}\n")
+    values = api.load(str(tmp_path)).values(str(tmp_path / "x.config.yaml"))
+    assert "a=2" in values.export() and "a = 2" in values.export("toml")
+    with pytest.raises(api.Refused, match="choose ice or toml"):
+        values.export("tmol")

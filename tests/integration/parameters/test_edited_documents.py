@@ -43,6 +43,8 @@ CASES: dict[str, tuple[str, str, str]] = {
     "one more entry of a block list": ("parameters:\n  ls:\n    - 1\n    - 2  # two\n  n: 5\n", "ls[2]", "7"),
     "an element far behind the last": ("parameters: {ls: [1, 2]}\n", "ls[5]", "7"),
     "a whole list": ("parameters:\n  ls: [1, 2]\n", "ls", "[4, 5]"),
+    "a list with comments": ("parameters:\n  ls: [  # why\n    1,  # the left one\n    2]\n", "ls", "[4, 5]"),
+    "a list with what looks like a comment": ("parameters:\n  ls: [1, 2]  # '#' is\n", "ls", "[4, 5]"),
     "a whole block list": ("parameters:\n  ls:\n    - 1\n", "ls", "[4, 5]"),
     "a member of an element": (
         "parameters:\n  motors:\n    - {name: a}\n    - name: b\n      most: 2\n",
