@@ -45,9 +45,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic",
-    "DocumentEditor", "EditConflict", "Faulty", "File", "Fix", "Fixing", "Line", "LivingWorkspace", "Migration", "Network",
-    "NotRenamed", "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value", "Values",
-    "Workspace", "change", "edit", "follow", "load", "migrate",
+    "DocumentEditor", "EditConflict", "Faulty", "File", "Fix", "Fixing", "Line", "LivingWorkspace", "Migration",
+    "Network", "NotRenamed", "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value",
+    "Values", "Workspace", "change", "edit", "follow", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {

@@ -216,7 +216,8 @@ public final class Kind {
         if (isUnique) {
             HashSet<Object> seen = new HashSet<>();
             for (Object item : made) {
-                if (item != null && !seen.add(item)) {
+                Object same = item instanceof Double number ? Double.valueOf(number + 0.0) : item; // -0.0 is 0.0
+                if (item != null && !seen.add(same)) {
                     String twice = element.isPlain() ? element.shown(item) : shownValue(item);
                     taking.refuse(path, "contains " + twice + " twice", twice, "elements that all differ", "");
                     break;
