@@ -217,5 +217,5 @@ def mutated(draw: st.DrawFn, data: Any) -> Any:
         place = draw(st.integers(0, len(data) - 1))
         if draw(st.booleans()):
             return [*data[:place], draw(mutated(data[place])), *data[place + 1 :]]
-        return [*data, data[place]]
+        return [*data, *draw(st.sampled_from(([data[place]], [0, -0.0])))]  # the same zero, with another sign
     return draw(JUNK)
