@@ -14,7 +14,7 @@ from deployments import deployed
 from robocomp_yaml import api
 from robocomp_yaml.api.editing import changes as made
 from robocomp_yaml.api.editing.editor import DocumentEditor
-from robocomp_yaml.api.editing.text import comments
+from robocomp_yaml.source.comments import comments
 from robocomp_yaml.source.tree import parse
 
 DDSL = "robot.ddsl.yaml"

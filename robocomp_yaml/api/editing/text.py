@@ -15,12 +15,12 @@ from typing import Any
 
 from robocomp_yaml.parameters.editing.edit import NotEditable, set_value
 from robocomp_yaml.semantics.paths import Step
+from robocomp_yaml.source.comments import comments
 from robocomp_yaml.source.parts import PartsParser
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, below, end_of, node_at
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, end_of, node_at
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 from robocomp_yaml.source.yaml_text import flow, quoted, single_quoted, text_of
 
-_COMMENT = re.compile(r"(?:(?<=[ \t\r\n])|(?<=\A)|(?<=\ufeff))#[^\r\n]*")
 _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n|\Z)")
 _COMMA = re.compile(r"[ \t]*,[ \t]*")
 _DASH = re.compile(r"[ ]*-[ \t]+")
@@ -171,26 +171,6 @@ class EditedText:
             assert isinstance(root, Mapping)
             self.root = root
             raise
-
-
-def comments(text: str, root: Node) -> Iterator[tuple[int, str]]:
-    """The comments of a document, each with its index."""
-    possible = list(_COMMENT.finditer(text))
-    texts = sorted((one.start, one.end) for one in _scalars(root)) if possible else []
-    at = 0
-    for found in possible:
-        while at < len(texts) and texts[at][1] <= found.start():
-            at += 1
-        if at == len(texts) or not texts[at][0] <= found.start() < texts[at][1]:
-            yield found.start(), found[0].rstrip()
-
-
-def _scalars(root: Node) -> Iterator[Scalar]:
-    for node in below(root):
-        if isinstance(node, Scalar):
-            yield node
-        elif isinstance(node, Mapping):
-            yield from (key for key, _ in node.items())
 
 
 def _behind_own_comments(text: str, at: int, indent: int) -> int:

@@ -16,14 +16,13 @@ from msgspec.structs import replace
 
 from robocomp_yaml.semantics.limits import elements
 from robocomp_yaml.semantics.paths import Step
+from robocomp_yaml.source.comments import comments
 from robocomp_yaml.source.parts import PartsParser
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, child, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
 _LINE = re.compile(r"(?<=\n)(?P<indent>[ ]*)(?P<body>[^\r\n]*?)[ \t]*(?=\r?\n|\Z)")
-_COMMENT = re.compile(r"(?<!\S)#")
-_QUOTED = re.compile(r"(?<![^\s\[\]{},:])(?:'(?:[^']|'')*'|\"(?:[^\"\\]|\\.)*\")", re.DOTALL)
 _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=\r?\n|\Z)")
 
 
@@ -126,8 +125,8 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
         return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
         raise NotEditable("the value spans several lines; set its elements, or edit the document", node)
-    if _COMMENT.search(_QUOTED.sub("", old)):
-        raise NotEditable("there are comments in the value; set its elements, or edit the document", node)
+    if inside := next((comment for at, comment in comments(text, node) if start <= at < end), ""):
+        raise NotEditable(f"there is a comment in the value ({inside}): set its elements, or edit the document", node)
     return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.api.editing.text import EditedText, comments
+from robocomp_yaml.api.editing.text import EditedText
 from robocomp_yaml.parameters.editing.edit import NotEditable
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source import parts
+from robocomp_yaml.source.comments import comments
 from robocomp_yaml.source.tree import parse
 
 
