@@ -39,9 +39,12 @@ class Allowances(msgspec.Struct, frozen=True):
     def of(cls, texts: DocumentTexts, paths: Iterable[str], plugins_of: Callable[[str], Plugins]) -> Allowances:
         """The allowances in the YAML documents at these paths; `plugins_of` returns the plug-ins of a workspace."""
         by_file, faults, with_comments = {}, [], {}
-        for path in paths:
-            from robocomp_yaml.source.allowances import allowances  # few documents have any
+        paths = list(paths)
+        if not paths:
+            return cls()
+        from robocomp_yaml.source.allowances import allowances  # few documents have any
 
+        for path in paths:
             if (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)

@@ -12,6 +12,7 @@ from robocomp_yaml.api.completing.proposal import VALUE, Proposal
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import Names
+from robocomp_yaml.parameters.expressions.types import find_member
 from robocomp_yaml.parameters.specification.expression import FUNCTIONS
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.parameters.words import label
@@ -60,7 +61,7 @@ def _type_at(root: Type, path: str, variables: dict[str, str]) -> Type | None:
         if is_element:
             now = now.element if isinstance(now, ListType | MapType) else None
         elif isinstance(now, RecordType):
-            now = next((one.type for one in now.members if one.code_name == step), None)
+            now = find_member(now, step)
         else:
             return None
     return now

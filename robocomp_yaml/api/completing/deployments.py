@@ -69,26 +69,18 @@ def _entry(place: TypedPlace, name: str) -> Node | None:
     return components.get(name) if components is not None else None
 
 
-def _named_by(place: TypedPlace, entry: str) -> str:
-    """The path of an entry's component, as written."""
-    of_entry = _entry(place, entry)
-    component = of_entry.get("component") if of_entry is not None else None
-    return str(component.data) if component is not None else ""
-
-
 def _component(
     path: str, place: TypedPlace, entry: str, by_path: dict[str, LinkedComponent]
 ) -> LinkedComponent | None:  # fmt: skip
-    named = _named_by(place, entry)
+    named = values.named_by(place, entry)
     return by_path.get(values.document_at(path, named)) if named else None
 
 
 def _values(path: str, place: TypedPlace, program: Program) -> Iterator[Proposal]:
     """Parameters under `set:` of an entry and their values, which no schema knows."""
-    match place.keys:
-        case ("components", entry, "set", *steps) if (steps or place.is_key) and (named := _named_by(place, entry)):
-            linked = values.parameters_for(program, path, named)
-            yield from values.at_parameter(linked, place, tuple(steps)) if linked is not None else ()
+    found = values.parameters_at(path, "ddsl", place, program)
+    if found is not None and (found[1] or place.is_key):
+        yield from values.at_parameter(found[0], place, found[1])
 
 
 def _ports(path: str, place: TypedPlace, program: Program) -> Iterator[Proposal]:

@@ -35,6 +35,29 @@ def parameters_for(program: Program, path: str, component: str = "") -> LinkedPa
     return values.parameters if values is not None else None
 
 
+def parameters_at(
+    path: str, kind: str, place: TypedPlace, program: Program
+) -> tuple[LinkedParameters, tuple[str, ...]] | None:  # fmt: skip
+    """The parameters of which a document gives values at a place, and the keys below them; None at any other place."""
+    match kind, place.keys:
+        case "config", ("parameters", *steps):
+            component = place.root.get("component")
+            linked = parameters_for(program, path, str(component.data) if component is not None else "")
+        case "ddsl", ("components", entry, "set", *steps) if named := named_by(place, entry):
+            linked = parameters_for(program, path, named)
+        case _:
+            return None
+    return (linked, tuple(steps)) if linked is not None else None
+
+
+def named_by(place: TypedPlace, entry: str) -> str:
+    """The path of an entry's component, as written; '' if it has none."""
+    components = place.root.get("components")
+    of_entry = components.get(entry) if components is not None else None
+    component = of_entry.get("component") if of_entry is not None else None
+    return str(component.data) if component is not None else ""
+
+
 def components_by_path(program: Program) -> dict[str, LinkedComponent]:
     """The components by the paths, as written and real, of their documents and folders."""
     found: dict[str, LinkedComponent] = {}
@@ -115,19 +138,10 @@ def at_parameter(linked: LinkedParameters, place: TypedPlace, steps: tuple[str, 
 def about_value(path: str, kind: str, place: TypedPlace, program: Program) -> str:
     """What a value in a values document, or under `set:`, is: of which parameter, and what the enumerator means. '' at
     any other place."""
-    match kind, place.keys:
-        case "config", ("parameters", *steps):
-            component = place.root.get("component")
-            linked = parameters_for(program, path, str(component.data) if component is not None else "")
-        case "ddsl", ("components", entry, "set", *steps):
-            components = place.root.get("components")
-            of_entry = components.get(entry) if components is not None else None
-            component = of_entry.get("component") if of_entry is not None else None
-            linked = parameters_for(program, path, str(component.data)) if component is not None else None
-        case _:
-            return ""
-    member = member_at(linked.parameters.root, steps) if linked is not None and not place.is_key else None
-    if member is None:
+    found = parameters_at(path, kind, place, program) if not place.is_key else None
+    member = member_at(found[0].parameters.root, found[1]) if found is not None else None
+    if found is None or member is None:
         return ""
+    steps = found[1]
     title = f"```\nparameter {'.'.join(filter(None, steps))}: {label(member.type)}\n```"
     return "\n\n".join(part for part in (title, member.doc, for_editors(member)) if part)
