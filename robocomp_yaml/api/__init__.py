@@ -73,11 +73,9 @@ def load(
     Returns a workspace whatever the documents contain: `Workspace.check` reports what is wrong with them.
     """
     from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.source.text import encoded
 
-    texts = {
-        path: text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
-        for path, text in (overlay or {}).items()
-    }
+    texts = {path: encoded(text) if isinstance(text, str) else text for path, text in (overlay or {}).items()}
     return Workspace(paths or (".",), tuple(include), texts, on_read)
 
 

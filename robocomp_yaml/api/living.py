@@ -16,6 +16,7 @@ from robocomp_yaml.garbage import uncollected
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.pipeline import alone
 from robocomp_yaml.source.disk import Disk, KeptFiles
+from robocomp_yaml.source.text import encoded
 
 
 class LivingWorkspace:
@@ -38,7 +39,7 @@ class LivingWorkspace:
         if text is None:
             self._unsaved.pop(real, None)
         else:
-            self._unsaved[real] = path, text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+            self._unsaved[real] = path, encoded(text) if isinstance(text, str) else text
 
     def refresh(self) -> None:
         """Files may have changed on the disk: they are read again, and `look` notices what has changed."""

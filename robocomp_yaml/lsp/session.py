@@ -28,6 +28,7 @@ from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE, is_script, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
+from robocomp_yaml.source.text import encoded
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
@@ -55,7 +56,7 @@ class EditedText(msgspec.Struct):
 
     @property
     def raw(self) -> bytes:
-        return self.text.encode("utf-8", "surrogatepass")  # half a pair is an error of the document, not of ours
+        return encoded(self.text)
 
     @property
     def is_saved(self) -> bool:

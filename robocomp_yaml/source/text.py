@@ -23,6 +23,11 @@ OF_NO_LINE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """Not allowed in a text of one line, as in the schemas: control characters, and all characters that end a line."""
 
 
+def encoded(text: str) -> bytes:
+    """The bytes of an unsaved text. Half a surrogate pair, which no file can have, is then an error of the document."""
+    return text.encode("utf-8", "surrogatepass")
+
+
 def size_in_words(size: int) -> str:
     return f"{size / (1 << 20):.1f} MiB" if size >= 1 << 20 else f"{size / 1024:.1f} KiB"
 

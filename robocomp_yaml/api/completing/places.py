@@ -8,7 +8,7 @@ from itertools import chain
 
 import msgspec
 
-from robocomp_yaml.source.text import decode
+from robocomp_yaml.source.text import decode, encoded
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
 MARK = "rcyaml0cursor"
@@ -57,7 +57,7 @@ def _is_expression(keys: tuple[str, ...], is_key: bool) -> bool:
 
 def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
     """The place at a line and column (from 1); None if it is in a comment, or the document is too broken."""
-    if decode("", text.encode("utf-8", "surrogatepass"))[0] is None:
+    if decode("", encoded(text))[0] is None:
         return None
     starts = [0, *(end.end() for end in _LINE_END.finditer(text))]
     if line > len(starts):
