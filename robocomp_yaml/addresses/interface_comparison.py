@@ -15,8 +15,9 @@ import msgspec
 
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.program import Definition, LinkedComponent, LinkedModule, Port
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import (
+    Definition,
     Enum,
     ExceptionType,
     Interface,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -21,12 +22,14 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document, read_tree
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.parameters.hidden import is_named, named_nodes, nodes, plain_below, secrets_of
-from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.secret_nodes import is_named, named_nodes, plain_below
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, found_in, pairs_below
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.types import RecordType
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
@@ -74,7 +77,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             if path not in program.disk.contents or not _others_can_read(path):
                 continue
             reported.add(location)
-            names = secrets_of(component.parameters) if component is not None else ()
+            names = _names([component.parameters] if component is not None else [])
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
@@ -139,7 +142,7 @@ class _SecretFinder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
-        self.names = {name for one in linked for name in secrets_of(one)}
+        self.names = _names(linked)
 
     def may_hold(self, document: Document) -> bool:
         """Whether a document may contain a secret; a quick test, which is False for most documents."""
@@ -192,7 +195,7 @@ class _SecretFinder:
             yield from named_nodes(tree, {*self.names, *_names_nearby(document.path, self.program.disk)})
             return
         if parameters is not None:
-            yield from nodes(linked.parameters.root, parameters)
+            yield from _of_type(linked.parameters.root, parameters)
         for section in _PROPERTIES:
             if (node := tree.get(section)) is not None:
                 yield from named_nodes(node)
@@ -201,9 +204,10 @@ class _SecretFinder:
         """The defaults of secret parameters."""
         for linked in self.program.parameter_documents():
             if linked.document is not None and linked.document.path == document.path:
-                records = [linked.parameters.root, *linked.parameters.types]
-                for record in records:
-                    yield from _defaults(record) if isinstance(record, RecordType) else ()
+                from robocomp_yaml.parameters.hidden import of_defaults
+
+                for type_ in (linked.parameters.root, *linked.parameters.types):
+                    yield from of_defaults(type_)
 
     def _of_deployment(self, document: Document, tree: Mapping) -> Iterator[Secret]:
         linked = self.program.deployments.get(document.real)
@@ -224,10 +228,26 @@ class _SecretFinder:
                 yield from found_in(_of_unknown_settings, components, entry, self.names)
 
 
+def _names(linked: Collection[LinkedParameters]) -> set[str]:
+    """The names of the secret members of parameters."""
+    if not linked:
+        return set()
+    from robocomp_yaml.parameters.hidden import secrets_of  # programs have no parameters
+
+    return {name for one in linked for name in secrets_of(one)}
+
+
+def _of_type(type_: RecordType, node: Node) -> Iterator[Scalar]:
+    """Every secret value of this type below a node."""
+    from robocomp_yaml.parameters.hidden import nodes
+
+    return nodes(type_, node)
+
+
 def _of_settings(entry: Node, root: RecordType) -> Iterator[Secret]:
     """The secrets in the settings of an entry, for a component with these parameters."""
     settings = entry.get("set")
-    return map(Secret, nodes(root, settings) if settings is not None else ())
+    return map(Secret, _of_type(root, settings) if settings is not None else ())
 
 
 def _of_unknown_settings(entry: Node, names: Collection[str]) -> Iterator[Secret]:
@@ -324,14 +344,6 @@ def _texts(node: Node) -> Iterator[Scalar]:
 def _between(text: str, masked: str) -> str:
     head, _, tail = masked.partition(secrets.HIDDEN)
     return text[len(head) : len(text) - len(tail)] if secrets.HIDDEN not in tail else text
-
-
-def _defaults(record: RecordType) -> Iterator[Scalar]:
-    for member in record.members:
-        if member.default is not None and member.default.node is not None:
-            yield from nodes(member.type, member.default.node)
-        elif isinstance(member.type, RecordType) and member.is_group:
-            yield from _defaults(member.type)
 
 
 def _add_lines(hidden_parts: Hidden, document: Document, disk: Disk, names: Collection[str]) -> None:

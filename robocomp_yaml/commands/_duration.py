@@ -13,7 +13,7 @@ class Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not
     name = "time"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        from robocomp_yaml.model.build_component import duration
+        from robocomp_yaml.model.duration import duration
 
         seconds = value if isinstance(value, float) else duration(value)
         if not seconds:

@@ -28,7 +28,7 @@ class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not g
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         from datetime import UTC, datetime, timedelta
 
-        from robocomp_yaml.model.build_component import duration
+        from robocomp_yaml.model.duration import duration
 
         if not value:
             return ""

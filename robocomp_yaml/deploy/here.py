@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.network.network import LOOPBACK, NetworkHost, is_loopback
+from robocomp_yaml.network.network import LOOPBACK, Network, NetworkHost, is_loopback
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.spec import ProcessSpec
@@ -28,6 +28,12 @@ def is_local(address: str) -> bool:
 def is_here(host: NetworkHost) -> bool:
     """Whether a host is this machine."""
     return not is_behind(host) and is_local(host.address)
+
+
+def local_host(network: Network) -> str:
+    """The name of a used host that is this machine, or ''."""
+    used = {process.host for process in network.enabled()}
+    return next((host.name for host in network.hosts.values() if host.name in used and is_here(host)), "")
 
 
 def is_behind(host: NetworkHost) -> bool:

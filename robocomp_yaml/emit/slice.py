@@ -12,9 +12,10 @@ from collections.abc import Collection, Iterable, Iterator
 from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
-from robocomp_yaml.link.program import Definition, LinkedModule
+from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.link.references import macro, types_of
 from robocomp_yaml.model import interface as model
+from robocomp_yaml.model.interface import Definition
 
 IN = "  "
 

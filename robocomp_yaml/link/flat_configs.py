@@ -1,22 +1,15 @@
-"""A component's flat `etc/config`, and who wrote it."""
+"""A component's flat `etc/config`."""
 
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping
-from functools import partial
 
 import msgspec
 
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source import properties
-from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.properties import FIRST_HEAD, VALUES_HEAD, IceProperty
-from robocomp_yaml.source.text import MAX_DOCUMENT
-from robocomp_yaml.transactions import manifest, settings
-from robocomp_yaml.transactions.manifest import Manifest
+from robocomp_yaml.source.properties import IceProperty
 
 FLAT = os.path.join("etc", "config")
 
@@ -26,8 +19,6 @@ EARLIER = {
 """What earlier versions of rcyaml wrote in every first `etc/config`: defaults of Ice, and of the run time of today."""
 
 _ADDRESS = pattern(r"\.Endpoints\Z|Proxy\Z")
-
-_HEAD = pattern(rf"# Configuration of [^\n]*({re.escape(FIRST_HEAD)}|{re.escape(VALUES_HEAD)})")
 
 
 class FlatConfig(msgspec.Struct, frozen=True):
@@ -63,31 +54,6 @@ def flat_at(path: str, disk: Disk) -> FlatConfig | None:
     raw = disk.read(path)[0] if disk.has_file(path) else None
     if raw is None:
         return None
-    return disk.once(("flat config", path, raw), lambda: _read(path, raw, disk))
+    from robocomp_yaml.link import flat_reading  # few components have a flat config
 
-
-def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
-    text = raw.decode("utf-8", "replace")
-    entries = list(manifest.entries_of(disk.real(path), partial(_manifest, disk)))
-    head = _HEAD.match(text)
-    is_from_values = head is not None and head[1] == VALUES_HEAD
-    is_unchanged = any(entry.hash == digest(raw) for entry in entries) if entries else is_from_values
-    last = properties.read(text).last
-    values = settings.read(path, text)
-    first = {} if is_from_values else values
-    before = first if is_unchanged else _base(path, disk, is_first=not is_from_values)
-    return FlatConfig(path, text, last, values, before, bool(entries) or head is not None, is_unchanged)
-
-
-def _manifest(disk: Disk, folder: str) -> Manifest:
-    """The manifest of a folder. What rcyaml wrote last is not part of any stamp: only rcyaml changes it."""
-    raw = disk.peek(os.path.join(folder, manifest.PATH), MAX_DOCUMENT)
-    return disk.once(("manifest", folder), lambda: manifest.usable(raw or None))
-
-
-def _base(path: str, disk: Disk, *, is_first: bool) -> Mapping[str, str]:
-    """The properties of an `etc/config` as rcyaml wrote it, without those that a values document states."""
-    root = os.path.dirname(os.path.dirname(path))
-    relative = os.path.relpath(path, root)
-    raw = disk.peek(os.path.join(root, manifest.BASE, relative), MAX_DOCUMENT)
-    return {**(EARLIER if is_first and relative == FLAT else {}), **settings.read(path, raw.decode("utf-8", "replace"))}
+    return disk.once(("flat config", path, raw), lambda: flat_reading.config(path, raw, disk))

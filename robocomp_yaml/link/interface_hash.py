@@ -11,8 +11,18 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.link.program import Definition, LinkedModule, Port
-from robocomp_yaml.model.interface import Enum, ExceptionType, Map, Member, Method, Sequence, Struct, TypeRef
+from robocomp_yaml.link.program import LinkedModule, Port
+from robocomp_yaml.model.interface import (
+    Definition,
+    Enum,
+    ExceptionType,
+    Map,
+    Member,
+    Method,
+    Sequence,
+    Struct,
+    TypeRef,
+)
 from robocomp_yaml.source.digest import digest
 
 DIGITS = 16

@@ -10,14 +10,6 @@ import msgspec
 
 from robocomp_yaml.digraph import postorder
 from robocomp_yaml.memory import Memory
-from robocomp_yaml.model.interface import (
-    Constant,
-    ExceptionType,
-    Interface,
-    Module,
-    TypeDefinition,
-    TypeRef,
-)
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
@@ -26,10 +18,9 @@ if TYPE_CHECKING:
     from robocomp_yaml.diag.diagnostic import Diagnostic
     from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.model.component import Component, Use
+    from robocomp_yaml.model.interface import Definition, Interface, Module, TypeRef
     from robocomp_yaml.model.statemachine import StateMachine
     from robocomp_yaml.parameters.layers.effective import Effective
-
-Definition = Constant | TypeDefinition | ExceptionType | Interface
 
 
 class LinkedModule(msgspec.Struct, frozen=True, eq=False):

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.program import Definition
 from robocomp_yaml.model import interface as model
+from robocomp_yaml.model.interface import Definition
 
 KINDS: dict[type, str] = {
     model.Constant: "constant",

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.model import component as model
 from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text, texts
+from robocomp_yaml.model.duration import seconds
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.statemachine import StateMachine
-
-_SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
-_DURATION = r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)"
 
 
 def build(root: Mapping, path: str) -> model.Component:
@@ -51,21 +48,6 @@ def _machine(node: Mapping, name: str, path: str) -> StateMachine:
     from robocomp_yaml.model.build_statemachine import build as build_machine  # few components have a machine
 
     return build_machine(node, name, path)
-
-
-def seconds(node: Node | None) -> float | None:
-    """The seconds of `100 ms`, `10 s`, or of a plain number, which counts milliseconds. None for any other node."""
-    if not isinstance(node, Scalar) or node.data is None:
-        return None
-    if isinstance(node.data, (int, float)):
-        return node.data / 1000
-    return duration(node.lexeme)
-
-
-def duration(text: str) -> float | None:
-    """The seconds of `100 ms`, `10 s` or `2min`; None if the text is not a duration."""
-    parts = re.fullmatch(_DURATION, text.strip())
-    return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
 
 def _language(root: Mapping) -> model.Language:

@@ -9,9 +9,9 @@ from typing import TypeVar
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.model.build_component import seconds
 from robocomp_yaml.model.build_host import host, limits, listen, variable
 from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
+from robocomp_yaml.model.duration import seconds
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.port_range import port_range
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once

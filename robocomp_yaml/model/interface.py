@@ -143,6 +143,9 @@ class Import(Text, frozen=True):
         return self.text.rpartition("/")[2].removesuffix(".idsl.yaml")
 
 
+Definition = Constant | TypeDefinition | ExceptionType | Interface
+
+
 class Module(Spanned, frozen=True):
     """One IDSL document. `path` is the document as opened; `stem` is its name without `.idsl.yaml`.
 
@@ -168,7 +171,7 @@ class Module(Spanned, frozen=True):
         return self.interfaces + self.topics
 
     @property
-    def definitions(self) -> Iterator[Constant | TypeDefinition | ExceptionType | Interface]:
+    def definitions(self) -> Iterator[Definition]:
         """All definitions of the module, which share one name space."""
         yield from self.constants
         yield from self.types

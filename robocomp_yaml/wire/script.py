@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import calls as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import LinkedModule
-from robocomp_yaml.model.build_component import seconds
+from robocomp_yaml.model.duration import seconds
 from robocomp_yaml.model.interface import Interface
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.ice_texts import ENDPOINT, PROXY, of_text

@@ -148,7 +148,7 @@ def alive_rule(process: Process) -> str:
     times = [alive.every, alive.within, alive.worker, late]
     every, within, worker, late_ms = (f"{1000 * time:.0f}" for time in times)
     then = "restart" if alive.restarts else "tell"
-    escaped = re.sub("..", r"\\x\g<0>", question)
+    escaped = "".join(f"\\x{byte:02x}" for byte in bytes.fromhex(question))
     return f"{every} {within} {alive.misses} {then} {worker} {late_ms} {host} {port} {escaped}"
 
 

@@ -18,6 +18,7 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered, remains
 from robocomp_yaml.deploy.icegrid import daemons
+from robocomp_yaml.deploy.icegrid.failures import GridFailed
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.time_limit import until
@@ -57,7 +58,7 @@ def stop(files: GridFiles) -> None:
 
 def main(folder: str, pending: list[str]) -> None:
     from robocomp_yaml.deploy.icegrid import leftovers, start_up
-    from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession
+    from robocomp_yaml.deploy.icegrid.grid import GridSession
 
     files = GridFiles(folder)
     grid = None

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
-import os
 import threading
 from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -20,9 +18,10 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.here import is_here, is_near
+from robocomp_yaml.deploy.here import is_near, local_host
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
+from robocomp_yaml.deploy.icegrid.failures import GridFailed
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
@@ -44,8 +43,7 @@ _RULE_WITHIN = 10.0
 _TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
 _CODE = "exit code "
 _RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
-_WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
-_WRITE_WITHIN, _CHECK_WITHIN = 10.0, 60.0
+_CHECK_WITHIN = 60.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -66,6 +64,7 @@ class IceGridEngine:
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
         self._has_staged = self._has_changed = False
+        self._early: dict[str, str] = {}  # files that were staged before `stage`
         self._far: set[str] = set()  # other hosts that were used before
         self._unreached: dict[str, set[str]] = {}  # processes that could not be ended, by the name of the host
         self._lock = threading.Lock()
@@ -114,7 +113,6 @@ class IceGridEngine:
         """Ends leftovers, as the keeper does: there may be no keeper. A failure is ignored, because the keeper tries
         again."""
         from robocomp_yaml.deploy.icegrid import leftovers
-        from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
         with contextlib.suppress(GridFailed):
             leftovers.end_all(grid)
@@ -138,6 +136,9 @@ class IceGridEngine:
         if not found:
             self._cleared.note(specs)
         if self._nodes:
+            if not found:  # while they start; `stage` reports a failure
+                with contextlib.suppress(DeployFailed):
+                    self._early = await self._call("", "prepared", self._stage_near, specs)
             await asyncio.shield(self._nodes)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
@@ -160,23 +161,24 @@ class IceGridEngine:
         await self._beside("", "prepared", self._stage, specs)
 
     def _stage(self, specs: Sequence[ProcessSpec]) -> None:
-        """Stages the configurations for this machine, and reserves space for the engine's own files, also on other
-        hosts: there, `run` writes the configurations at the start."""
+        """Stages the configurations for this machine, and reserves space on other hosts: there, `run` writes the
+        configurations at the start."""
+        from robocomp_yaml.deploy.icegrid import far_space
+
+        self._stage_near(specs)
+        self._early = {}
+        running = {name: spec for name, spec in self._specs.items() if spec and name in self._desired}
+        far_space.reserve(self._files, specs, running, partial(self._run, self._reached()))
+
+    def _stage_near(self, specs: Sequence[ProcessSpec]) -> dict[str, str]:
+        """Stages the configurations for this machine, and space for the engine's own files, unless that was done early.
+        Returns all staged files."""
         self._has_staged = True
-        near = [spec for spec in specs if is_near(spec)]
-        files = {path: text for spec in near for path, text in spec.config_files.items()}
-        own_folder.stage(self._files.folder, files | {_RESERVE: " " * _RESERVED})
-        sizes: dict[str, int] = {}
-        asked: dict[str, ProcessSpec] = {}
-        for spec in specs:
-            if spec not in near and spec.name in self._desired and (known := self._specs.get(spec.name)):
-                asked[spec.process.host] = known
-                size = sum(len(text.encode(errors="surrogateescape")) for text in spec.config_files.values())
-                sizes[spec.process.host] = sizes.get(spec.process.host, 0) + size
-        for host, known in asked.items():
-            command = ("bash", "-c", _WRITE, "bash", f"{self._files.on(host).folder}/config", str(sizes[host]))
-            if known.process.host == host and self._run(self._reached(), known, command, _WRITE_WITHIN):
-                raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
+        files = {path: text for spec in specs if is_near(spec) for path, text in spec.config_files.items()}
+        files[_RESERVE] = " " * _RESERVED
+        if files != self._early:
+            own_folder.stage(self._files.folder, files)
+        return files
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "deployed", self._prepare, specs)
@@ -237,15 +239,13 @@ class IceGridEngine:
             servers += [
                 (host, one) for host, node in before.nodes.items() for one in node.servers if one.id not in replaced
             ]
-        if all(one.id != KEEPER for _, one in servers) and (host := self._local_host()) not in self._no_node and host:
+        if (
+            all(one.id != KEEPER for _, one in servers)
+            and (host := local_host(self._network)) not in self._no_node
+            and host
+        ):
             servers.append((host, descriptors.keeper(self._files, grid.user_of(host))))
         grid.deploy(descriptors.application(self._network.name, servers), is_new=before is None)
-
-    def _local_host(self) -> str:
-        """The name of a host that is this machine, on which the keeper can run, or ''."""
-        used = {process.host for process in self._network.enabled()}
-        names = (host.name for host in self._network.hosts.values() if host.name in used and is_here(host))
-        return next(names, "")
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
@@ -323,7 +323,6 @@ class IceGridEngine:
         """The exit code of a command that runs beside a process, on its host: as a server of its own. Its output is
         added to `lines`."""
         from robocomp_yaml.deploy.icegrid import descriptors
-        from robocomp_yaml.deploy.icegrid.grid import GridFailed
         from robocomp_yaml.deploy.icegrid.status import run_status
 
         host, is_local = spec.process.host, is_near(spec)
@@ -388,8 +387,6 @@ class IceGridEngine:
 
     async def _call(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
         """Runs a blocking function. An error is reported for the process of the name `about`, if there is one."""
-        from robocomp_yaml.deploy.icegrid.grid import GridFailed
-
         try:
             return await asyncio.get_running_loop().run_in_executor(self._calls, work, *arguments)
         except GridFailed as error:

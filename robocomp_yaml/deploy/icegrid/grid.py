@@ -13,20 +13,13 @@ import IceGrid
 
 from robocomp_yaml.deploy.engine import STARTED, Line
 from robocomp_yaml.deploy.icegrid import settings
+from robocomp_yaml.deploy.icegrid.failures import GridFailed, Unreachable
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.log_reader import line_of
 from robocomp_yaml.deploy.time_limit import until
 
 _RETRY = 0.01
 _READ_WITHIN = 4000  # milliseconds
-
-
-class GridFailed(Exception):
-    """A call of IceGrid failed; the text is the reason."""
-
-
-class Unreachable(GridFailed):
-    """The registry or a node does not answer."""
 
 
 class GridSession:

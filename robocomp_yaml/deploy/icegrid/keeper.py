@@ -20,7 +20,8 @@ import IceGrid
 
 from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.icegrid import daemons, leftovers
-from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession, Unreachable
+from robocomp_yaml.deploy.icegrid.failures import GridFailed, Unreachable
+from robocomp_yaml.deploy.icegrid.grid import GridSession
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.icegrid.status import is_over
 from robocomp_yaml.deploy.plan import in_order

@@ -13,6 +13,7 @@ from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import descriptors
+from robocomp_yaml.deploy.icegrid.failures import GridFailed
 from robocomp_yaml.deploy.icegrid.grid import GridSession
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.network.network import PEM
@@ -66,8 +67,6 @@ def clean(
 ) -> None:  # fmt: skip
     """Removes configurations from a host that answers: those of these processes, or `everything`. `with_key` also
     removes the key of its node, which runs on without the file. A failure is ignored."""
-    from robocomp_yaml.deploy.icegrid.grid import GridFailed
-
     files = grid.files.on(host)
     own = f"{files.root}/nodes/{host}"
     paths = [f"{files.folder}/config/{name}{end}" for name in names for end in ("", PEM)]

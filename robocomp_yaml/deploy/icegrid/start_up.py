@@ -20,6 +20,7 @@ from robocomp_yaml.deploy.engine import HALTED, DeployFailed, EngineHangs
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
+from robocomp_yaml.deploy.icegrid.failures import GridFailed, Unreachable
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.install import installed
 from robocomp_yaml.deploy.local import procfs, record
@@ -112,7 +113,7 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
         except OSError as error:
             raise _failed(network, reason_of(error)) from error
     try:  # while the registry starts, which takes about as long as the import of Ice
-        from robocomp_yaml.deploy.icegrid.grid import Unreachable, reach
+        from robocomp_yaml.deploy.icegrid.grid import reach
     except ImportError as error:
         raise _failed(network, str(error)) from error
     try:
@@ -183,8 +184,6 @@ def _has_ended_hung(grid: GridSession, host: str) -> bool:
 
 def stop(grid: GridSession, name: str, spec: ProcessSpec | None) -> None:
     """Stops a process. A node of this machine that hangs does not prevent that: it is killed. Raises GridFailed."""
-    from robocomp_yaml.deploy.icegrid.grid import Unreachable
-
     try:
         return grid.stop(name)
     except Unreachable:
@@ -212,7 +211,6 @@ def ended(grid: GridSession | GridFiles, network: Network) -> list[str]:
         registered.forget(grid.folder)
         return []
     from robocomp_yaml.deploy.icegrid import leftovers
-    from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
     files = grid.files
     nodes = files.nodes()

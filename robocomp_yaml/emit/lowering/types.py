@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.model.interface import Method, TypeRef
+from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.model.interface import Definition, Method, TypeRef
 
 
 def resolve(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:

@@ -11,8 +11,8 @@ from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.languages.python.text import about, docstring, signature
 from robocomp_yaml.languages.python.types import argument_hint, hint, qualified, result_hint
-from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interface, Member, Struct
+from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.model.interface import Constant, Definition, Enum, ExceptionType, Interface, Member, Struct
 
 
 class MethodStub(msgspec.Struct, frozen=True):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.python.names import module_variable, python_name
-from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
+from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.model.interface import Definition, Enum, Map, Method, Sequence, TypeRef
 
 _BASIC_HINTS = {
     "bool": "bool",
