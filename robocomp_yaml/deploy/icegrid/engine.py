@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import importlib
 import threading
 from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -74,6 +75,8 @@ class IceGridEngine:
         self._network, self._files = network, GridFiles(network.folder)
         if lacking := of_hosts.missing():
             raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
+        if create:  # the import takes as long as the deployment's key and the start of the registry
+            self._calls.submit(importlib.import_module, "robocomp_yaml.deploy.icegrid.grid")
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return start_up.is_running_without_files(self._files, network)
