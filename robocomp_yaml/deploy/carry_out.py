@@ -27,6 +27,7 @@ LASTING = 0.5
 """Seconds that a process which became ready must have run before an operation reports success."""
 
 _AGAIN = 0.1  # seconds between two checks whether a process lasts
+_TICK = 0.05  # seconds: these checks are made at multiples of it, so that one observation serves many processes
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
 UNCHANGED = "not restarted"
@@ -318,7 +319,8 @@ class _Starts(msgspec.Struct):
                     return
             if time.monotonic() > end or (running and running.state not in ALIVE):
                 break
-            await asyncio.sleep(_AGAIN if why or running is None else max(LASTING - running.uptime, _AGAIN))
+            pause = _AGAIN if why or running is None else max(LASTING - running.uptime, _AGAIN)
+            await asyncio.sleep(-(time.monotonic() + pause) % _TICK + pause)
             running = None
         self._since.setdefault(step.name, time.monotonic())
         where, how = step.spec.process.span, running.end if running else why
