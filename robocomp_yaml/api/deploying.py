@@ -13,13 +13,11 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import require
 from robocomp_yaml.deploy import folder, history, limits, operations, registered, renamed
-from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import KILLED, DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, engine_of, make_engine
 from robocomp_yaml.deploy.install import installed
-from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unhealthy, with_dependences
@@ -36,6 +34,7 @@ from robocomp_yaml.pipeline import Analysis
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
     from robocomp_yaml.building.job import BuildEvent
+    from robocomp_yaml.deploy.attached import Attached
     from robocomp_yaml.deploy.probe import ProbedProgram
     from robocomp_yaml.deploy.stale import StaleComponent
 
@@ -211,6 +210,8 @@ class Deployment:
                 raise
 
         async def changed() -> Result:
+            from robocomp_yaml.deploy.attached import attached
+
             async with attached(self._engine, self.network, stays) as follow:
                 result = await operations.up(
                     self._engine, self.network, chosen, forced, decided, report or _ignore,
@@ -287,6 +288,8 @@ class Deployment:
         in UTC as lines have it, `pattern` a regular expression: other lines are omitted. Raises Refused if the pattern
         is none, or takes too long."""
         chosen = self.chosen(names) or self.enabled
+        from robocomp_yaml.deploy.log_filter import LogFilter, selected
+
         chosen_lines, found = LogFilter(since, pattern), list[Line]()
 
         async def work() -> None:

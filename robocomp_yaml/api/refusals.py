@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from robocomp_yaml.diag.errors import Refused, reason_of
-from robocomp_yaml.diag.listing import some
-from robocomp_yaml.diag.suggest import suggest
 
 _MOST = 12  # names that a message lists
 
 
 def meant(word: str, known: Iterable[str], otherwise: str = "") -> str:
     """The end of a message about an unknown word: `; did you mean 'X'?`, or `otherwise` if no known word is near."""
+    from robocomp_yaml.diag.suggest import suggest
+
     nearest = suggest(word, known)
     hint = f"did you mean '{nearest}'?" if nearest else otherwise
     return f"; {hint}" if hint else ""
@@ -21,6 +21,8 @@ def meant(word: str, known: Iterable[str], otherwise: str = "") -> str:
 def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml") -> None:
     """Raises Refused if `name` is unknown. `owner` is what has the known names."""
     if name not in known:
+        from robocomp_yaml.diag.listing import some
+
         choices = f"choose one of {some(list(known), _MOST)}"
         raise Refused(f"{owner} has no {what} '{name}'{meant(name, known, choices)}")
 

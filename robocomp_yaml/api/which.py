@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NoReturn
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.diag.listing import some
-from robocomp_yaml.link.component_references import References, stem
 from robocomp_yaml.link.flat_configs import FLAT
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
@@ -18,6 +17,7 @@ from robocomp_yaml.source.heading import component_in
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.registered import RegisteredDeployment
+    from robocomp_yaml.link.component_references import References
     from robocomp_yaml.pipeline import Analysis
 
 VALUES = os.path.join("etc", "config.yaml")
@@ -59,10 +59,16 @@ def values(argument: str, *, has_flat: bool = False) -> str:
 
 def _of_folder(folder: str) -> str:
     """The component of a folder: the only one in it, or else the only one below it."""
-    beside = References(Disk()).beside
+    beside = _references().beside
     nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), of_kind(folder, "cdsl"), of_kind(folder, "pdsl"))
     several = f"'{folder}' has several components" if folder else "this folder has several components"
     return _only(nearest, several) or _refuse(no_component("" if os.path.normpath(folder) == "." else folder))
+
+
+def _references() -> References:
+    from robocomp_yaml.link.component_references import References  # deployments are found without
+
+    return References(Disk())
 
 
 def no_component(folder: str = "") -> str:
@@ -86,6 +92,7 @@ def _refuse(message: str) -> NoReturn:
 def _named(name: str) -> str:
     """The component of this workspace with this name. The name of its document or folder is accepted too, in any
     case."""
+    from robocomp_yaml.link.component_references import stem
     from robocomp_yaml.link.workspace import root_above
 
     root = root_above("") or "."
@@ -109,7 +116,7 @@ def component_near(values_document: str) -> str:
     """The only component beside a values document, or one folder up."""
     folder = os.path.dirname(values_document)
     folders = (folder, os.path.normpath(os.path.join(folder, os.pardir)))
-    nearest = (References(Disk()).beside(where, kind) for where in folders for kind in ("cdsl", "pdsl"))
+    nearest = (_references().beside(where, kind) for where in folders for kind in ("cdsl", "pdsl"))
     return _only(nearest, "this folder has several components") or _refuse(
         f"{values_document} has no component beside it, nor one folder up"
     )

@@ -7,7 +7,6 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
-from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
 from robocomp_yaml.deploy import json_data
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line
@@ -35,9 +34,11 @@ def plan_lines(plan: Plan, network: Network, color: bool, *, everything: bool) -
             lines.append(line(paint(head, _TINTS[step.action], color), f": {step.reason}"))
             if len(step.changes) > 1:
                 lines += [shown(f"    {change}") for change in step.changes]
-            settings = network.settings_of(step.name) if step.action != STOP else []
-            chosen = [one for one in settings if everything or is_worth_a_line(one)]
-            lines += [shown(f"    {one.key} = {one.value}  # {origin(one)}") for one in chosen]
+            if settings := network.settings_of(step.name) if step.action != STOP else []:  # programs have none
+                from robocomp_yaml.commands._origins import is_worth_a_line, origin
+
+                chosen = [one for one in settings if everything or is_worth_a_line(one)]
+                lines += [shown(f"    {one.key} = {one.value}  # {origin(one)}") for one in chosen]
     counts = [(len(plan.of(action)), action) for action in (START, STOP, RESTART, CHANGE, KEEP)]
     summary = ", ".join(f"{count} to {action}" for count, action in counts if count)
     return [*lines, shown("nothing to do" if plan.is_empty else summary)]
@@ -55,6 +56,8 @@ def stop_lines(stopping: list[str], reasons: dict[str, str], color: bool) -> lis
 
 def plan_data(plan: Plan, network: Network | None = None) -> list[dict[str, Any]]:
     """The steps; with a network, also the values of the configurations of what does not stop."""
+    from robocomp_yaml.commands._origins import settings_data
+
     made = json_data.plan_steps(plan)
     for step, data in zip(plan.steps.values(), made, strict=True):
         if network is not None and step.action != STOP:

@@ -25,7 +25,6 @@ from robocomp_yaml.deploy.operations import Choose, Result, reasons_to_stop
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
-from robocomp_yaml.diag.render import text
 from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.network.network import Network
 
@@ -296,6 +295,8 @@ class DeploySession(msgspec.Struct):
         new = [one for one in diagnostics if one not in self.shown]
         self.shown += new
         if new:
+            from robocomp_yaml.diag.render import text
+
             blocks = text.each(new, _options.colored(self.ctx, sys.stderr))
             terminal.say(*[line for block in blocks for line in (terminal.Shown(), *block)][1:], err=True)
 

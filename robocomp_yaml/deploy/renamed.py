@@ -7,7 +7,6 @@ import os
 
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.listing import runs
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import Network
@@ -22,7 +21,7 @@ def refuse(network: Network) -> None:
 def under_another_name(network: Network) -> str:
     """Which deployment runs that this document described under another name, and what stops it; '' if none does."""
     for one in registered.every():
-        if one.document == network.path and one.folder != network.folder and one.name != network.name and runs(one):
+        if one.document == network.path and one.folder != network.folder and one.name != network.name and _runs(one):
             down = typed("rcyaml", "deploy", "down", one.name)
             document = shown_path(network.path)
             return f"{document} described '{one.name}' before, which still runs as it was started: `{down}` stops it"
@@ -33,8 +32,14 @@ def at_another_path(network: Network) -> str:
     """Which deployment of this name runs although its document is gone, and what stops it; '' if none does."""
     for one in registered.every():
         is_other = one.name == network.name and one.folder != network.folder
-        if is_other and not os.path.exists(one.document) and runs(one):
+        if is_other and not os.path.exists(one.document) and _runs(one):
             document = shown_path(one.document)
             down = typed("rcyaml", "deploy", "down", document)
             return f"another '{one.name}' runs, whose document {document} is gone: `{down}` stops it"
     return ""
+
+
+def _runs(one: registered.RegisteredDeployment) -> bool:
+    from robocomp_yaml.deploy.listing import runs  # few deployments have another one of their name
+
+    return runs(one)

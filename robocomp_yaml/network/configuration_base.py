@@ -8,11 +8,9 @@ import msgspec
 
 from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
 from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values
-from robocomp_yaml.addresses.own_configuration import chosen, own_configuration
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.flat_configs import FlatConfig, flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
-from robocomp_yaml.parameters.layers.settings import merged_entries
 from robocomp_yaml.parameters.writing.sections import CLASSIC, FLAT_TOML, dialect
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
@@ -48,7 +46,7 @@ class ConfigurationBase(msgspec.Struct):
         if self.values is None:
             manager = self.first(*connections.MANAGER)
             return "" if self.is_own and manager == DEFAULT_MANAGER else manager
-        node = merged_entries(self.values, "topics").get("manager")
+        node = _entries(self.values, "topics").get("manager")
         return str(node.data) if node is not None else ""
 
     def topic(self, port: str, interface: str, *, is_out: bool) -> str:
@@ -57,8 +55,8 @@ class ConfigurationBase(msgspec.Struct):
         if self.values is None:
             prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
         else:
-            prefix = _text(merged_entries(self.values, "topics", "prefix").get(prefixes))
-            name = _text(merged_entries(self.values, "topics", "name").get(port))
+            prefix = _text(_entries(self.values, "topics", "prefix").get(prefixes))
+            name = _text(_entries(self.values, "topics", "name").get(port))
         return connections.topic(prefix, name, interface)
 
     def first(self, *keys: str) -> str:
@@ -66,7 +64,7 @@ class ConfigurationBase(msgspec.Struct):
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that replaces the usual property of a proxy."""
-        node = merged_entries(self.values, "proxies").get(name) if self.values is not None else None
+        node = _entries(self.values, "proxies").get(name) if self.values is not None else None
         key = node.get("key") if isinstance(node, tree.Mapping) else None
         return key if isinstance(key, Scalar) else None
 
@@ -79,16 +77,26 @@ class ConfigurationBase(msgspec.Struct):
 
 def base_of_component(linked: LinkedComponent, program: Program) -> ConfigurationBase:
     """What a component without a deployment starts with."""
+    from robocomp_yaml.addresses.own_configuration import own_configuration
+
     own = own_configuration(linked, program)
     return ConfigurationBase(own.values, own.flat, is_own=True)
 
 
 def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
     if instance.entry.config is None and instance.component is not None:
+        from robocomp_yaml.addresses.own_configuration import chosen  # programs have none
+
         own = chosen(instance.component, instance.values, disk)
         return ConfigurationBase(own.values, own.flat, is_own=True)
     flat = flat_at(instance.flat, disk) if instance.flat else None
     return ConfigurationBase(instance.values if flat is None else None, flat, instance.entry.config is None)
+
+
+def _entries(values: LinkedValues, *sections: str) -> Mapping[str, Node]:
+    from robocomp_yaml.parameters.layers.settings import merged_entries  # flat configs, and programs, have none
+
+    return merged_entries(values, *sections)
 
 
 def _text(node: Node | None) -> str:

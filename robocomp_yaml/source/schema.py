@@ -21,8 +21,6 @@ from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source.holders import holder_of
-from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, not_plain
 
@@ -136,6 +134,8 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
     if keyword == "type" and isinstance(node, Scalar):
         if isinstance(around, dict) and "pattern" in around and not re.search(around["pattern"], node.lexeme):
             return ()  # in quotes the text would be invalid, too
+        from robocomp_yaml.source.retyped import retyped
+
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
         data = [item.data for item in node.items]
@@ -162,6 +162,7 @@ def _unknown_key(
     whole: dict[str, Any], node: Mapping, instance_path: Path[str | int], schema_path: list[str | int], unknown: str
 ) -> Diagnostic:
     from robocomp_yaml.diag.suggest import hint_for_key, meaning
+    from robocomp_yaml.source.holders import holder_of
 
     key = node.entries[unknown][0]
     around = _subschema(whole, schema_path[:-1])

@@ -18,7 +18,6 @@ from robocomp_yaml.deploy.engine import HALTED, KILLED, STOP_WITHIN, DeployFaile
 from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.channel import PROTOCOL
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
-from robocomp_yaml.deploy.local.kernel import death_with_this
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import (
     CheckedSpecs,
@@ -181,6 +180,8 @@ class LocalEngine:
         return merged([LogReader(self._network.folder, name) for name in names], last, follow)
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
+        from robocomp_yaml.deploy.local.kernel import death_with_this
+
         process = self._specs[name].process if name in self._specs else self._network.processes[name]
         try:
             started = await asyncio.create_subprocess_exec(
