@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import re
-from collections.abc import Callable, Coroutine, Iterable
+from collections.abc import Callable, Coroutine, Iterable, Sequence
 from contextlib import ExitStack, aclosing, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -20,7 +20,7 @@ from robocomp_yaml.deploy.engines import ENGINES, LOCAL, engine_of, make_engine
 from robocomp_yaml.deploy.install import installed
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.patterns import PatternTooSlow
-from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unhealthy, with_dependences
+from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, disabled, unhealthy, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.preparing import prepared
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -154,12 +154,17 @@ class Deployment:
         self._diagnostics += shown
         return has_errors(shown)
 
+    def _to_start(self, names: Sequence[str], restart: bool) -> tuple[set[str], set[str]]:
+        """The names of the processes that these NAMEs mean, and of those that are restarted. Adds notes about them."""
+        chosen = self.chosen(names)
+        concerned = chosen or self.enabled
+        self._diagnostics += [*limits.ignored(self.network, concerned), *disabled(self.network, names)]
+        return chosen, concerned if restart else set()
+
     def plan(self, *names: str, restart: bool = False) -> Plan:
         """The plan of `up`: what it would start, stop, restart and change, and why. The diagnostics have the
         obstacles."""
-        chosen = self.chosen(names)
-        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
-        forced = (chosen or self.enabled) if restart else set[str]()
+        chosen, forced = self._to_start(names, restart)
         renamed.refuse(self.network)
         self._report_stale(names)
 
@@ -191,12 +196,9 @@ class Deployment:
         """
         if isinstance(on_failure, str):
             require("way to handle failures", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
-        chosen, limit = self.chosen(names), TimeLimit(timeout)
-        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
+        (chosen, forced), limit = self._to_start(names, restart), TimeLimit(timeout)
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
-        forced = (chosen or self.enabled) if restart else set[str]()
-
         decided = operations.always(on_failure) if isinstance(on_failure, str) else on_failure
 
         async def work() -> Result:

@@ -7,7 +7,7 @@ that does not use Ice restarts with a process that it is `after`.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 import msgspec
 
@@ -111,6 +111,13 @@ def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) ->
         for other in before:
             behind.setdefault(other, []).append(name)
     return set(reachable(names, lambda name: behind.get(name, ())))
+
+
+def disabled(network: Network, names: Iterable[str]) -> Iterator[Diagnostic]:
+    """A warning for each of these names that is that of a disabled process: it is not started."""
+    for process in map(network.find, names):
+        if process is not None and not process.enabled:
+            yield deploying.DISABLED.at(process.span, name=process.name, hint="remove `enabled: false`")
 
 
 def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:

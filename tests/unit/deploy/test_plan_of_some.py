@@ -16,6 +16,7 @@ from robocomp_yaml.deploy.plan import (
     START,
     STOP,
     Plan,
+    disabled,
     in_order,
     plan,
     with_dependences,
@@ -33,6 +34,12 @@ def test_a_process_is_found_by_each_of_its_names() -> None:
     named = network(replace(MOTORS, aliases=("wheels", "m")), CAMERA)
     names = ("motors", "wheels", "m", "camera", "x")
     assert [one and one.name for one in map(named.find, names)] == ["motors", "motors", "motors", "camera", None]
+
+
+def test_who_names_a_disabled_process_is_told() -> None:
+    named = network(replace(SPARE, aliases=("extra",)), CAMERA)
+    told = {names: [one.code for one in disabled(named, names)] for names in ((), ("camera", "x"), ("spare", "extra"))}
+    assert told == {(): [], ("camera", "x"): [], ("spare", "extra"): ["RC7043", "RC7043"]}
 
 
 def actions(made: Plan) -> dict[str, str]:
