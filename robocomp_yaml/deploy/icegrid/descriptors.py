@@ -47,7 +47,7 @@ exit 0
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
-def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_local: bool) -> Any:
+def server(files: GridFiles, user: str, spec: ProcessSpec, number: int, *, is_local: bool) -> Any:
     """The descriptor of a process. For another host it contains the configuration. `number` is the number of its
     restart rule."""
     process = spec.process

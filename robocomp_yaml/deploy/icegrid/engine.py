@@ -211,12 +211,11 @@ class IceGridEngine:
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._files.keep_specs(self._specs)
-            users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
+            hosts = {spec.process.host for spec in starting}
+            nodes = {host: (self._files.on(host), grid.user_of(host)) for host in hosts}
             servers = [
-                (spec.process.host, descriptors.server(
-                    self._files.on(spec.process.host), spec, users[spec.process.host], number, is_local=is_near(spec)
-                ))
-                for spec in starting
+                (host, descriptors.server(*nodes[host], spec, number, is_local=is_near(spec)))
+                for spec in starting for host in [spec.process.host]
             ]  # fmt: skip
             if servers:
                 self._deploy({spec.name for spec in starting}, servers)
@@ -335,7 +334,7 @@ class IceGridEngine:
             limits=ResourceLimits(),
         )  # fmt: skip
         own = replace(spec, process=process, command=command)
-        server = descriptors.server(self._files.on(host), own, grid.user_of(host), 0, is_local=is_local)
+        server = descriptors.server(self._files.on(host), grid.user_of(host), own, 0, is_local=is_local)
         with self._lock:
             self._deploy([name], [(host, server)])
         try:

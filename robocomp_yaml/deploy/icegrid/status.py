@@ -74,11 +74,10 @@ def _use(line: str) -> MeasuredUse | None:
 
 def run_status(grid: GridSession, name: str, host: str, *, is_local: bool) -> RunStatus | None:
     """The status of a process by its `run`, None if there is none yet."""
-    path = grid.files.on(host).status(name)
     if not is_local:
-        return of_text("\n".join(grid.read(name, path)))
+        return of_text("\n".join(grid.read(name, grid.files.on(host).status(name))))
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(grid.files.status(name), encoding="utf-8", errors="replace") as file:
             return of_text(file.read())
     except OSError:
         return None
