@@ -33,6 +33,22 @@ def format_of(choices: Sequence[str], meaning: str = "The output format.") -> Ca
 format_, text_or_json = format_of(FORMATS), format_of(["text", "json"])
 
 
+def together(*options: Callable[[Any], Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Options, in this order, as one decorator."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+# What most commands about documents have. The context is the first argument of their functions.
+reporting = together(include, format_, click.pass_context)
+reading = together(include, text_or_json, click.pass_context)
+
+
 class FailOn(msgspec.Struct, frozen=True):
     """`--fail-on`: which diagnostics besides errors make a run fail: those of a severity that is at least `severity`,
     and those with one of the `codes`. `text` is as typed."""

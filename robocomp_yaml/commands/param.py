@@ -77,9 +77,8 @@ def _running(function: Callable[..., None]) -> Callable[..., None]:
         with parameters.connected(ice_config or "", timeout) as session:
             function(parameters, session, **own)
 
-    for option in (_options.text_or_json, _options.include, _talking.ice_config, _talking.timeout, _talking.deployment):
-        run = option(run)
-    return run
+    options = (_talking.deployment, _talking.timeout, _talking.ice_config, _options.include, _options.text_or_json)
+    return _options.together(*options)(run)
 
 
 @click.group(cls=CommandGroup, short_help="Parameters of a running component: list, get, set, watch.")
