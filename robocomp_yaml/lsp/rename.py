@@ -11,6 +11,7 @@ from pygls.exceptions import JsonRpcException
 from robocomp_yaml.api.renaming import Renaming
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.lsp.messages import real_path, uri_of_path
 from robocomp_yaml.lsp.positions import TextLines
 from robocomp_yaml.lsp.server import Server
@@ -101,10 +102,7 @@ def _can(server: Server) -> types.WorkspaceEditClientCapabilities | None:
 def _edit(server: Server, made: Renaming, known: KnownNames, file: tuple[str, str] | None) -> types.WorkspaceEdit:
     can = _can(server)
     is_annotated = can is not None and can.change_annotation_support is not None
-    by_file: dict[str, list[NameEdit]] = {}
-    for one in made.edits:
-        by_file.setdefault(one.span.file, []).append(one)
-    edit = _workspace_edit(server, by_file, is_annotated=is_annotated)
+    edit = _workspace_edit(server, _by_file(made.edits), is_annotated=is_annotated)
     if not is_annotated:
         return edit
     edit.change_annotations = {
@@ -118,9 +116,8 @@ def _edit(server: Server, made: Renaming, known: KnownNames, file: tuple[str, st
 
 def _add_file(server: Server, edit: types.WorkspaceEdit, known: KnownNames, old: str, new: str) -> None:
     """Adds that a file is renamed, with all paths to it, as one change that has to be confirmed."""
-    paths: dict[str, list[NameEdit]] = {}
-    for one in edits_of_moves(known.analysis, known.names, {os.path.realpath(old): os.path.realpath(new)}):
-        paths.setdefault(one.span.file, []).append(one)
+    moves = {os.path.realpath(old): os.path.realpath(new)}
+    paths = _by_file(edits_of_moves(known.analysis, known.names, moves))
     changes = list(edit.document_changes or ())
     of_file = {one.text_document.uri: one for one in changes if isinstance(one, types.TextDocumentEdit)}
     for more in _changes(server, paths, _OF_FILE):
@@ -151,6 +148,10 @@ def _workspace_edit(
             for lines in [server.lines(server.session.text_of(path))]
         }
     )
+
+
+def _by_file(edits: Iterable[NameEdit]) -> dict[str, list[NameEdit]]:
+    return grouped((one.span.file, one) for one in edits)
 
 
 def _changes(

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from robocomp_yaml import secrets
 from robocomp_yaml.digraph import reachable
+from robocomp_yaml.grouping import grouped
 
 MARK = "RCYAML_PROCESS"
 """The variable in the environment of each process of a deployment, and of its descendants: `FOLDER:NAME`."""
@@ -136,9 +137,7 @@ class Families:
 
 def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]:
     """These processes and all their descendants."""
-    children: dict[int, list[int]] = {}
-    for one in alive.values():
-        children.setdefault(one.parent, []).append(one.pid)
+    children = grouped((one.parent, one.pid) for one in alive.values())
     return set(reachable(of, lambda pid: children.get(pid, ())))
 
 

@@ -14,6 +14,7 @@ from robocomp_yaml.emit.graphs.grid import Area, NodeGrid, grid_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, Routes, outgoing, routes_of
+from robocomp_yaml.grouping import grouped
 
 TITLE, SMALL, LABEL = 13.0, 11.0, 10.0
 """Font sizes."""
@@ -85,9 +86,7 @@ class _Placer:
     def __init__(self, picture: Picture, grid: NodeGrid, routes: Routes) -> None:
         self.picture, self.grid, self.routes = picture, grid, routes
         self.made = Geometry()
-        self.incoming: dict[str, list[Net]] = {}
-        for net in routes.nets:
-            self.incoming.setdefault(net.target, []).append(net)
+        self.incoming = grouped((net.target, net) for net in routes.nets)
         self.leaving = outgoing(routes.nets)
         self.edges = {area.left for area in grid.areas} | {area.right + 1 for area in grid.areas}
         self.tops = {area.top for area in grid.areas}

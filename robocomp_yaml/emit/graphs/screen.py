@@ -19,6 +19,7 @@ from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.packing import WIDER
 from robocomp_yaml.emit.graphs.picture import TOPIC, Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
+from robocomp_yaml.grouping import grouped
 
 SMALL_ON_SCREEN = 12.0
 """The size of all texts but the titles of nodes."""
@@ -233,10 +234,7 @@ class _ScreenPlacer:
     def _exits(self) -> dict[NetBranch, Point]:
         """The point at which each branch begins, on the right side of its source. A branch that goes straight begins
         beside its port."""
-        leaving: dict[str, list[tuple[Net, NetBranch]]] = {}
-        for net in self.routes.nets:
-            for branch in net.branches:
-                leaving.setdefault(branch.source, []).append((net, branch))
+        leaving = grouped((branch.source, (net, branch)) for net in self.routes.nets for branch in net.branches)
         points: dict[NetBranch, Point] = {}
         for name, branches in leaving.items():
             block = self.made.nodes[name]
