@@ -28,7 +28,7 @@ from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Scalar, Sequence, value_at
 from robocomp_yaml.source.yaml_text import flow
 
 _SUFFIX = ".idsl.yaml"
@@ -193,19 +193,15 @@ def _types(place: TypedPlace, known: Names, section: str) -> Iterator[Proposal]:
 
 def _enumerators(place: TypedPlace, known: Names) -> Iterator[Proposal]:
     """The enumerators of the type beside a default or a constant, and the values to which it is limited."""
-    node: Node | None = place.root
-    for key in place.keys[:-1]:
-        node = node.get(key) if node is not None else None
-    of = node.get("type") if node is not None else None
+    node = value_at(place.root, *place.keys[:-1])
+    of, limited = value_at(node, "type"), value_at(node, "values")
     stem, _, name = of.lexeme.rpartition(".") if isinstance(of, Scalar) else ("", "", "")
-    limited = node.get("values") if node is not None else None
     for each in limited.items if isinstance(limited, Sequence) else ():
         yield Proposal(flow(each.data), VALUE, "one of values")
     if name == "bool" and limited is None:
         yield from (Proposal(one, VALUE, "bool") for one in ("true", "false"))
-    types = place.root.get("types")
-    own = types.get(name) if types is not None and not stem else None
-    listed = own.get("enum") if own is not None else None
+    own = value_at(place.root, "types", name) if not stem else None
+    listed = value_at(own, "enum")
     found = [key.lexeme for key, _ in listed.items()] if isinstance(listed, Mapping) else items_of(own, "enum")
     yield from (Proposal(one, VALUE, f"enumerator of {name}") for one in found)
     for imported, one in _of_imported(place, known, names.ENUMERATOR):

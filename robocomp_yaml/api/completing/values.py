@@ -21,6 +21,7 @@ from robocomp_yaml.parameters.types import (
     is_secret,
 )
 from robocomp_yaml.parameters.words import for_editors, in_words, label
+from robocomp_yaml.source.tree import value_at
 from robocomp_yaml.source.yaml_text import flow
 
 
@@ -52,9 +53,7 @@ def parameters_at(
 
 def named_by(place: TypedPlace, entry: str) -> str:
     """The path of an entry's component, as written; '' if it has none."""
-    components = place.root.get("components")
-    of_entry = components.get(entry) if components is not None else None
-    component = of_entry.get("component") if of_entry is not None else None
+    component = value_at(place.root, "components", entry, "component")
     return str(component.data) if component is not None else ""
 
 

@@ -79,8 +79,7 @@ def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
     if there was something."""
     halted = procfs.halted(files.folder)
     for pid in halted:
-        with suppress(OSError):
-            os.kill(pid, signal.SIGCONT)
+        procfs.send(pid, signal.SIGCONT)
     return [codes.NOT_SUPERVISED.at(Span(network.path), what=HALTED)] if halted else []
 
 

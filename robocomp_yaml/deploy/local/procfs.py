@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
 from typing import NamedTuple
 
 from robocomp_yaml import secrets
@@ -167,6 +168,12 @@ def listeners(ports: Collection[int]) -> dict[int, list[int]]:
         for port in {inodes[link] for link in _open_files(pid) if link in inodes}:
             found[port].append(pid)
     return found
+
+
+def send(pid: int, number: int) -> None:
+    """Sends a signal to a process. One that has ended, or is not the user's, is ignored."""
+    with suppress(OSError):
+        os.kill(pid, number)
 
 
 def command(pid: int) -> list[str]:

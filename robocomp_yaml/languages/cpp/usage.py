@@ -36,7 +36,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     types = OfferedTypes(ice_name, _is_of_every_struct, _is_of_every_exception)
     returned = partial(types.result, tuples=False)
-    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=True)
+    members = offers.OfferedProxies(PORTS.called, _is_of_every_proxy, returned, outputs=True).every(ports)
     if linked.component.compatibility:
         members |= {name: members[now] for name, now in older_names(list(members))}
     else:

@@ -36,7 +36,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     """What the worker of a component offers."""
     ports = lowering.lower(linked, PORTS)
     types = OfferedTypes(ice_name, _is_of_every_struct, lambda name: True)
-    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, partial(_returned, types), outputs=False)
+    members = offers.OfferedProxies(PORTS.called, _is_of_every_proxy, partial(_returned, types)).every(ports)
     members["parameters"] = OfferedMember(_parameters(linked))
     modules = offers.modules(
         linked, ice_name, ice_name, lambda name: name == "RoboCompCommonBehavior", types.of_definition
