@@ -182,6 +182,19 @@ class FileReport:
             terminal.say(*(f"{'next:' if one is following[0] else '':<5} {one}" for one in following))
 
 
+def print_value(ctx: click.Context, format_: str, path: str, data: Any, as_json: Callable[[object], str]) -> None:
+    """Prints the value of a parameter. Without one, ends the command with 1."""
+    from robocomp_yaml.source.yaml_text import flow
+
+    if data is None:
+        terminal.say(f"{path} has no value", err=True)
+        ctx.exit(1)
+    if format_ == "json":
+        terminal.data(as_json({"path": path, "value": data}), json=True)
+    else:
+        terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
+
+
 async def ask(text: str, answers: tuple[str, ...]) -> str:
     """The answer of the user; the first one is the default. It is read in a daemon thread, so that Ctrl-C also ends the
     question."""

@@ -120,16 +120,8 @@ def get(
 ) -> None:  # fmt: skip
     """Print the effective value at PATH, such as motors[0].vel. A secret is hidden."""
     from robocomp_yaml.api.values import Values
-    from robocomp_yaml.source.yaml_text import flow
 
-    data = Values(file, include).get(path, reveal=reveal)
-    if data is None:
-        terminal.say(f"{path} has no value", err=True)
-        ctx.exit(1)
-    if format_ == "json":
-        terminal.data(dumps({"path": path, "value": data}), json=True)
-        return
-    terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
+    _options.print_value(ctx, format_, path, Values(file, include).get(path, reveal=reveal), dumps)
 
 
 @command.command("set", short_help="Change one value, and nothing else.", cls=_OptionalFile,
