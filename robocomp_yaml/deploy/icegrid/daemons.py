@@ -7,7 +7,6 @@ the node already runs.
 
 from __future__ import annotations
 
-import fcntl
 import getpass
 import os
 import shlex
@@ -28,6 +27,7 @@ from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import config_option, entry_line
+from robocomp_yaml.transactions import whole_file
 
 _BEGINS_WITHIN = 5.0  # seconds
 
@@ -177,9 +177,6 @@ def is_alive(folder: str) -> bool:
     except OSError:
         return False
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
+        return not whole_file.lock(lock)
     finally:
         os.close(lock)
-    return False
