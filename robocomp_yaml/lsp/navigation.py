@@ -61,6 +61,13 @@ def add(server: Server) -> None:
             return None
         return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
 
+    def located(
+        params: types.ReferenceParams | types.ImplementationParams | types.DeclarationParams,
+        spans: Callable[[DefinedName, KnownNames], Iterable[Span]],
+    ) -> list[types.Location] | None:
+        """The places of the name at a position that `spans` finds."""
+        return asked(params, lambda one, _, known, messages: [messages.location(span) for span in spans(one, known)])
+
     @server.answers(types.TEXT_DOCUMENT_DEFINITION)
     def definition(params: types.DefinitionParams) -> types.Location | None:
         return asked(params, lambda one, _, known, messages: messages.location(one.span)) or linked(params)
@@ -78,22 +85,18 @@ def add(server: Server) -> None:
 
     @server.answers(types.TEXT_DOCUMENT_REFERENCES)
     def references(params: types.ReferenceParams) -> list[types.Location] | None:
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
+        def spans(one: DefinedName, known: KnownNames) -> Iterator[Span]:
             own = [one.span] if params.context.include_declaration else []
-            spans = sorted({*own, *known.names.uses.get(one.key, ())})
-            in_code = sorted(span for span, _ in _in_code(one, known))
-            return [messages.location(span) for span in (*spans, *in_code, *_in_generated(one, known))]
+            yield from sorted({*own, *known.names.uses.get(one.key, ())})
+            yield from sorted(span for span, _ in _in_code(one, known))
+            yield from _in_generated(one, known)
 
-        return asked(params, answer)
+        return located(params, spans)
 
     @server.answers(types.TEXT_DOCUMENT_DECLARATION)
     def declaration(params: types.DeclarationParams) -> list[types.Location] | None:
         """What was generated from a name, and Slice that was written by hand with it."""
-
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
-            return [messages.location(span) for span in _in_generated(one, known)]
-
-        return asked(params, answer)
+        return located(params, _in_generated)
 
     def _in_generated(one: DefinedName, known: KnownNames) -> Iterator[Span]:
         yield from places_in_generated(known.program, known.names, one)
@@ -102,11 +105,7 @@ def add(server: Server) -> None:
     @server.answers(types.TEXT_DOCUMENT_IMPLEMENTATION)
     def implementation(params: types.ImplementationParams) -> list[types.Location] | None:
         """The methods in the user's code that implement a method, or handle an event or a state."""
-
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
-            return [messages.location(span) for span, is_method in sorted(_in_code(one, known)) if is_method]
-
-        return asked(params, answer)
+        return located(params, lambda one, known: sorted(span for span, is_method in _in_code(one, known) if is_method))
 
     def _in_code(one: DefinedName, known: KnownNames) -> list[tuple[Span, bool]]:
         workspace = server.session.workspace_of(one.span.file)

@@ -67,7 +67,7 @@ def _servers(
 def _component(
     path: str, place: TypedPlace, entry: str, by_path: dict[str, LinkedComponent]
 ) -> LinkedComponent | None:  # fmt: skip
-    named = values.named_by(place, entry)
+    named = values.named_by(place, "components", entry)
     return by_path.get(values.document_at(path, named)) if named else None
 
 

@@ -34,7 +34,7 @@ def paths(kind: str, path: str, place: TypedPlace, program: Program) -> Iterator
             )  # fmt: skip
             yield from _relative((one for one in documents if one != path), folder, "values")
         case "ddsl", ("components", entry, "config"):
-            component = named_by(place, entry)
+            component = named_by(place, "components", entry)
             linked = parameters_for(program, path, component) if component else None
             if linked is not None and linked.component is not None:
                 values = (one.document.path for one in program.values.values() if one.parameters is linked)

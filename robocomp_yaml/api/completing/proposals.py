@@ -61,13 +61,13 @@ def proposals(
             found = chain(
                 _in_parameters(place, known),
                 constraints.proposals(path, place, known, program),
-                _component_paths(path, place, known, "component"),
+                _component_paths(path, place, known),
             )
         case "ddsl":
             found = deployments.proposals(path, place, known, program)
         case "config":
             found = chain(_in_values(path, place, program, with_schema=with_schema),
-                          _component_paths(path, place, known, "component"))  # fmt: skip
+                          _component_paths(path, place, known))  # fmt: skip
         case "mock":
             found = others.in_script(place, known, program, present)
         case "workspace":
@@ -110,10 +110,9 @@ def _of_schema(kind: str, place: TypedPlace) -> Iterator[Proposal]:
 
 def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_schema: bool) -> Iterator[Proposal]:
     """Values and, without a server of schemas, keys in a values document."""
-    component = place.root.get("component")
     if program is None or not with_schema:
         return
-    linked = values.parameters_for(program, path, str(component.data) if component is not None else "")
+    linked = values.parameters_for(program, path, values.named_by(place))
     if linked is None:
         return
     if place.keys[:1] == ("parameters",):
@@ -123,9 +122,9 @@ def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_sc
         yield from (Proposal(one, names.INTERFACE, what, snippet=f"{one}: ") for one in ports)
 
 
-def _component_paths(path: str, place: TypedPlace, known: Names, key: str) -> Iterator[Proposal]:
+def _component_paths(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
     """The documents of components, as `component:` of parameters and values names them."""
-    if place.keys == (key,) and not place.is_key:
+    if place.keys == ("component",) and not place.is_key:
         for one in known.of_kinds(names.COMPONENT):
             where = os.path.relpath(one.span.file, os.path.dirname(path))
             yield Proposal(where, names.COMPONENT, one.says, one.doc)

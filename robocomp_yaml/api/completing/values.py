@@ -42,18 +42,17 @@ def parameters_at(
     """The parameters of which a document gives values at a place, and the keys below them; None at any other place."""
     match kind, place.keys:
         case "config", ("parameters", *steps):
-            component = place.root.get("component")
-            linked = parameters_for(program, path, str(component.data) if component is not None else "")
-        case "ddsl", ("components", entry, "set", *steps) if named := named_by(place, entry):
+            linked = parameters_for(program, path, named_by(place))
+        case "ddsl", ("components", entry, "set", *steps) if named := named_by(place, "components", entry):
             linked = parameters_for(program, path, named)
         case _:
             return None
     return (linked, tuple(steps)) if linked is not None else None
 
 
-def named_by(place: TypedPlace, entry: str) -> str:
-    """The path of an entry's component, as written; '' if it has none."""
-    component = value_at(place.root, "components", entry, "component")
+def named_by(place: TypedPlace, *keys: str) -> str:
+    """The path of the component that a document, or the entry at these keys, names; '' if it has none."""
+    component = value_at(place.root, *keys, "component")
     return str(component.data) if component is not None else ""
 
 

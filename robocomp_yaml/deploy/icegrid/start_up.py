@@ -67,11 +67,7 @@ def is_running_without_files(files: GridFiles, network: Network) -> bool:
         return False
     reason = "processes of it run, and its files are damaged: `rcyaml deploy down` ends them"
     failed = codes.FOLDER.at(Span(network.path), path=shown_path(network.folder), reason=reason)
-
-    async def end() -> list[str]:
-        return await asyncio.to_thread(record.end_hung, network.folder)
-
-    raise EngineHangs(failed, end)
+    raise EngineHangs(failed, partial(asyncio.to_thread, record.end_hung, network.folder))
 
 
 def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
