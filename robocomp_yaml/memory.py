@@ -7,7 +7,7 @@ same object, so that it is again an equal cause of later passes. An analysis wit
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterable
 from typing import Any, TypeVar
 
 _Kept = TypeVar("_Kept")
@@ -50,6 +50,10 @@ class Memory:
         self._use(part)
         self._results[part] = causes, result
         return result
+
+    def listed(self, part: Hashable, causes: tuple[Any, ...], make: Callable[[], Iterable[_Kept]]) -> tuple[_Kept, ...]:
+        """As `result`, of what is found one by one."""
+        return self.result(part, causes, lambda: tuple(make()))
 
     @property
     def is_lasting(self) -> bool:

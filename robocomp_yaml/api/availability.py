@@ -18,6 +18,7 @@ from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.push import pushing
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.listing import some
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.network import files
 from robocomp_yaml.network.network import Network, Process
 
@@ -68,11 +69,8 @@ def _files(deployment: Deployment, network: Network, host: str) -> tuple[dict[st
         return {}, set()
     there = replace(network, processes={name: replace(one, host=host) for name, one in network.processes.items()})
     pushes, diagnostics = pushing.compared(there, [network.hosts[host]], ())
-    needed, lacking = files.on_host(there, host), dict[str, list[str]]()
-    for push in pushes:
-        for here in push.send.values():
-            for name in needed[here]:
-                lacking.setdefault(name, []).append(network.hosts[host].there(here))
+    needed, sent = files.on_host(there, host), [here for push in pushes for here in push.send.values()]
+    lacking = grouped((name, network.hosts[host].there(here)) for here in sent for name in needed[here])
     found = {name: [_in_words(paths)] for name, paths in lacking.items()}
     for one in diagnostics:
         facts = dict(one.facts)

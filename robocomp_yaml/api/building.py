@@ -15,6 +15,7 @@ from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.source.discover import kind_of, of_kind
 
 if TYPE_CHECKING:
@@ -89,9 +90,7 @@ def build_stale(
     report: Callable[[BuildEvent], None] | None = None,
 ) -> list[Built]:  # fmt: skip
     """Builds stale components, each with its last build type unless one is set. Returns one result for each type."""
-    by_type: dict[str, list[str]] = {}
-    for one in stale:
-        by_type.setdefault(build_type or one.look.type or RELEASE, []).append(one.unit.document)
+    by_type = grouped((build_type or one.look.type or RELEASE, one.unit.document) for one in stale)
     return [build(analysis, paths, build_type=type_, report=report) for type_, paths in by_type.items()]
 
 

@@ -328,12 +328,8 @@ class Deployment:
     def down(self, *names: str, report: Report | None = None) -> list[str]:
         """Stops the network, or the named processes with all that depend on them. Returns the names of the stopped
         processes."""
-        chosen = self.chosen(names)
-
-        async def work() -> list[str]:
-            return await operations.take_down(self._engine, self.network, chosen, report or _ignore)
-
-        return self._run(work(), change=True)
+        work = operations.take_down(self._engine, self.network, self.chosen(names), report or _ignore)
+        return self._run(work, change=True)
 
     def probe(self, host: str = "") -> dict[str, list[ProbedProgram]]:
         """Which programs of the network a host has, by host; by default, for all hosts. A host that does not answer is

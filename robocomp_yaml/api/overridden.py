@@ -17,7 +17,7 @@ from robocomp_yaml.secrets import HIDDEN
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source import text
 from robocomp_yaml.source.tree import Mapping as Tree
-from robocomp_yaml.source.tree import parse
+from robocomp_yaml.source.tree import parse, value_at
 
 
 def in_entry(
@@ -70,7 +70,7 @@ def in_values(
 
 def _key(root: Tree | None, instance: LinkedInstance) -> str:
     """The key of an instance's entry: that of an entry with `instances:` contains `{i}`."""
-    entries = root.get("components") if root is not None else None
+    entries = value_at(root, "components")
     names = [key.lexeme for key, _ in entries.items()] if isinstance(entries, Tree) else []
     number = "" if instance.number is None else str(instance.number)
     return next((one for one in names if one.replace("{i}", number) == instance.entry.name), instance.entry.name)

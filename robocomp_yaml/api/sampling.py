@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncGenerator, Callable, Coroutine
 from contextlib import aclosing
+from functools import partial
 from typing import Any
 
 from robocomp_yaml.api.deploying import Deployment
@@ -20,9 +21,7 @@ def sample(deployment: Deployment, *names: str, every: float, show: Show) -> Non
     chosen = deployment.chosen(names)
 
     async def work() -> None:
-        def engine() -> Any:
-            return make_engine(deployment.engine, deployment.network)
-
+        engine = partial(make_engine, deployment.engine, deployment.network)
         async with aclosing(samples(engine, deployment.network, chosen, every)) as found:
             await show(found)
 

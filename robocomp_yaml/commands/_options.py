@@ -33,6 +33,22 @@ def format_of(choices: Sequence[str], meaning: str = "The output format.") -> Ca
 format_, text_or_json = format_of(FORMATS), format_of(["text", "json"])
 
 
+def together(*options: Callable[[Any], Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Options, in this order, as one decorator."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+# What most commands about documents have. The context is the first argument of their functions.
+reporting = together(include, format_, click.pass_context)
+reading = together(include, text_or_json, click.pass_context)
+
+
 class FailOn(msgspec.Struct, frozen=True):
     """`--fail-on`: which diagnostics besides errors make a run fail: those of a severity that is at least `severity`,
     and those with one of the `codes`. `text` is as typed."""
@@ -164,6 +180,19 @@ class FileReport:
             terminal.data(dumps({"files": self._files, "notes": self._notes, "next": list(following)}), json=True)
         elif not self._is_quiet:
             terminal.say(*(f"{'next:' if one is following[0] else '':<5} {one}" for one in following))
+
+
+def print_value(ctx: click.Context, format_: str, path: str, data: Any, as_json: Callable[[object], str]) -> None:
+    """Prints the value of a parameter. Without one, ends the command with 1."""
+    from robocomp_yaml.source.yaml_text import flow
+
+    if data is None:
+        terminal.say(f"{path} has no value", err=True)
+        ctx.exit(1)
+    if format_ == "json":
+        terminal.data(as_json({"path": path, "value": data}), json=True)
+    else:
+        terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:

@@ -32,9 +32,7 @@ _COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 @click.option("-j", "--jobs", type=click.IntRange(min=1), help="The number of parallel steps; by default one per CPU.")
 @click.option("-D", "defines", multiple=True, metavar="NAME=VALUE", help="A variable for CMake; may be repeated.")
 @click.option("--clean", is_flag=True, help="Remove the build trees, and build nothing.")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def command(
     ctx: click.Context, components: tuple[str, ...], type_: str | None, jobs: int | None, defines: tuple[str, ...],
     clean: bool, include: tuple[str, ...], format_: str,

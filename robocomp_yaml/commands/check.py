@@ -29,9 +29,7 @@ if TYPE_CHECKING:
 @click.option("--diff", is_flag=True, help="Show what the fixes would change; write nothing.")
 @click.option("--watch", is_flag=True, help="Check again after each change, until Ctrl-C.")
 @_options.fail_on
-@_options.include
-@_options.format_
-@click.pass_context
+@_options.reporting
 def command(
     ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool,
     diff: bool, watch: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,

@@ -51,9 +51,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.option("--watch", is_flag=True, help="Compile again after each change, until Ctrl-C.")
 @click.option("--merge", is_flag=True, help="Update your files in src/ by a three-way merge.")
 @_options.fail_on
-@_options.include
-@_options.format_
-@click.pass_context
+@_options.reporting
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, standalone: bool, targets: tuple[str, ...],
     dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, watch: bool, fail_on: _options.FailOn,

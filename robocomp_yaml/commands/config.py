@@ -58,9 +58,7 @@ def command() -> None:
 
 @command.command(short_help="Write a first document, with defaults and docs as comments.")
 @click.argument("file", metavar="[COMPONENT]", default="")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def new(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
     """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the
     component's document (or that of its parameters), or its name; if there is only one component, it may be omitted. It
@@ -79,9 +77,7 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -
 
 @command.command(short_help="Report everything that is wrong with the values.")
 @read_only
-@_options.include
-@_options.format_
-@click.pass_context
+@_options.reporting
 def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
     """Report everything that is wrong with the values in FILE and its layers, with line and column."""
     from robocomp_yaml.api.values import Values
@@ -93,9 +89,7 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
 @command.command(short_help="Print every effective value, and its location.")
 @read_only
 @reveal
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
     """Print every effective value with the file and line that set it, and the values that it overrides: parameters,
     endpoints, proxies, topics, and properties of Ice and others. Secrets are hidden. References to the environment and
@@ -120,24 +114,14 @@ def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], 
 @read_only
 @click.argument("path")
 @reveal
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def get(
     ctx: click.Context, file: str, path: str, reveal: bool, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip
     """Print the effective value at PATH, such as motors[0].vel. A secret is hidden."""
     from robocomp_yaml.api.values import Values
-    from robocomp_yaml.source.yaml_text import flow
 
-    data = Values(file, include).get(path, reveal=reveal)
-    if data is None:
-        terminal.say(f"{path} has no value", err=True)
-        ctx.exit(1)
-    if format_ == "json":
-        terminal.data(dumps({"path": path, "value": data}), json=True)
-        return
-    terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
+    _options.print_value(ctx, format_, path, Values(file, include).get(path, reveal=reveal), dumps)
 
 
 @command.command("set", short_help="Change one value, and nothing else.", cls=_OptionalFile,
@@ -145,9 +129,7 @@ def get(
 @file
 @click.argument("path")
 @click.argument("value")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def set_(
     ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip

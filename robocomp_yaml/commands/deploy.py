@@ -85,9 +85,8 @@ def _subcommand(
             ctx = click.get_current_context()
             function(open_session(ctx, ddsl, include, format_, engine, lenient=lenient), **own)
 
-        for option in (*reversed(options), _options.include, _options.text_or_json):
-            run = option(run)
-        return command.command(short_help=short_help)(run)
+        of_all = (_options.text_or_json, _options.include)
+        return command.command(short_help=short_help)(_options.together(*of_all, *options)(run))
 
     return decorate
 

@@ -66,10 +66,8 @@ def _change(
             terminal.diff([revision.diff], _options.colored(ctx))
         _report(ctx, revision, format_, is_written=not only_diff)
 
-    decorated: Callable[..., Any] = run
-    for one in (*reversed(arguments), of, _options.text_or_json, _options.include, _force, _diff):
-        decorated = one(decorated)
-    command.command(name, short_help=short_help, help=meaning, context_settings=settings)(decorated)
+    options = _options.together(_diff, _force, _options.include, _options.text_or_json, of, *arguments)
+    command.command(name, short_help=short_help, help=meaning, context_settings=settings)(options(run))
 
 
 def _members(metavar: str = "NAME...", name: str = "members", *, required: bool = True) -> Callable[..., Any]:
@@ -186,9 +184,7 @@ for _name, _key in _LISTS.items():
 @click.argument("name")
 @click.argument("position", metavar="[X Y]", nargs=-1, type=click.FloatRange(0))
 @_deployment
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def place(
     ctx: click.Context, name: str, position: tuple[float, ...], deployment: str | None, include: tuple[str, ...],
     format_: str,
@@ -219,9 +215,7 @@ def place(
 def _historical(name: str, short_help: str, meaning: str) -> None:
     @command.command(name, short_help=short_help, help=meaning)
     @click.argument("document", metavar="[DOCUMENT]", default="")
-    @_options.include
-    @_options.text_or_json
-    @click.pass_context
+    @_options.reading
     def run(ctx: click.Context, document: str, include: tuple[str, ...], format_: str) -> None:
         path = document or _document(None, include)
         editor = _editor(path, include)

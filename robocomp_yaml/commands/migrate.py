@@ -39,9 +39,7 @@ LONG = 50
 @click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
               help="Corrections of guesses: `names:` and `types:` by key, "
                    "`text:` for keys that are no lists.")  # fmt: skip
-@_options.include
-@_options.format_
-@click.pass_context
+@_options.reporting
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, dry_run: bool, show_diff: bool,
     report: str | None, strict: bool, force: bool, exact: bool, names: tuple[str, ...], rules: str | None,

@@ -32,9 +32,7 @@ if TYPE_CHECKING:
     help="IceStorm's topic manager; by default, at port 9999.",
 )
 @click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def command(
     ctx: click.Context, interfaces: tuple[str, ...], script: str | None, endpoints: tuple[str, ...], storm: str,
     check: bool, include: tuple[str, ...], format_: str,

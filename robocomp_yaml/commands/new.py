@@ -66,9 +66,7 @@ def _uses(name: str, meaning: str, metavar: str = "INTERFACE") -> Callable[[Any]
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes", "TOPIC")
 @_uses("subscribes", "topics that it receives", "TOPIC")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def component(
     ctx: click.Context, /, name: str, language: str, include: tuple[str, ...], format_: str, **uses: tuple[str, ...]
 ) -> None:  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from functools import wraps
+from functools import partial, wraps
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -77,9 +77,8 @@ def _running(function: Callable[..., None]) -> Callable[..., None]:
         with parameters.connected(ice_config or "", timeout) as session:
             function(parameters, session, **own)
 
-    for option in (_options.text_or_json, _options.include, _talking.ice_config, _talking.timeout, _talking.deployment):
-        run = option(run)
-    return run
+    options = (_talking.deployment, _talking.timeout, _talking.ice_config, _options.include, _options.text_or_json)
+    return _options.together(*options)(run)
 
 
 @click.group(cls=CommandGroup, short_help="Parameters of a running component: list, get, set, watch.")
@@ -112,16 +111,8 @@ def list_(parameters: RunningParameters, session: Session, format_: str) -> None
 @click.pass_context
 def get(ctx: click.Context, parameters: RunningParameters, session: Session, path: str, format_: str) -> None:
     """Print the value that a running COMPONENT has now at PATH, such as motors[0].vel. A secret is hidden."""
-    from robocomp_yaml.source.yaml_text import flow
 
-    data = session.get(path)
-    if data is None:
-        terminal.say(f"{path} has no value", err=True)
-        ctx.exit(1)
-    if format_ == "json":
-        terminal.data(_talking.as_json({"path": path, "value": data}, line=False), json=True)
-    else:
-        terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
+    _options.print_value(ctx, format_, path, session.get(path), partial(_talking.as_json, line=False))
 
 
 @command.command("set", short_help="Change one value of a running component, for now.",

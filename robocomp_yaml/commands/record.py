@@ -11,7 +11,7 @@ import click
 from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup, LibraryCommand
-from robocomp_yaml.commands.topic import count_option, topic_names, type_option, with_topics
+from robocomp_yaml.commands.topic import arriving_options, topic_names, with_topics
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
@@ -68,10 +68,7 @@ def command() -> None:
 @click.option("-o", "--output", default="", metavar="FILE", help="The new file; by default, named after the deployment "
               "and the time.")  # fmt: skip
 @click.option("--max-size", type=_Size(), metavar="SIZE", help="End before the file is larger: 500MB, 2GB.")
-@count_option
-@_talking.ending
-@type_option
-@with_topics
+@arriving_options
 @click.pass_context
 def start(
     ctx: click.Context, topics: Topics, names: tuple[str, ...], output: str, max_size: int | None, count: int | None,

@@ -18,9 +18,7 @@ if TYPE_CHECKING:
 @click.argument("name")
 @click.argument("new")
 @click.option("--diff", "only_diff", is_flag=True, help="Show what would change, and write nothing.")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def command(
     ctx: click.Context, name: str, new: str, only_diff: bool, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip

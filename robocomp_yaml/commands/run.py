@@ -51,9 +51,7 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
               help="A configuration for this run, as `config:` of the entry.")  # fmt: skip
 @click.option("--build", is_flag=True, help="First build what is not up to date.")
 @click.option("--dry-run", is_flag=True, help="Print the command and the configuration, and start nothing.")
-@_options.include
-@_options.text_or_json
-@click.pass_context
+@_options.reading
 def command(
     ctx: click.Context, words: tuple[str, ...], with_needed: bool, deployment: str | None, alone: bool,
     settings: tuple[str, ...], config: str | None, build: bool, dry_run: bool, include: tuple[str, ...], format_: str,

@@ -54,16 +54,11 @@ def with_topics(function: Callable[..., None]) -> Callable[..., None]:
 
         function(Topics(Addresses(deployment or "", include), storm, ice_config or "", timeout), **own)
 
-    for option in (
-        _options.text_or_json,
-        _options.include,
-        _talking.ice_config,
-        _talking.timeout,
-        _storm,
-        _talking.deployment,
-    ):
-        run = option(run)
-    return run
+    options = (_talking.deployment, _storm, _talking.timeout, _talking.ice_config, _options.include)
+    return _options.together(*options, _options.text_or_json)(run)
+
+
+arriving_options = _options.together(count_option, _talking.ending, type_option, with_topics)
 
 
 @click.group(cls=CommandGroup, short_help="The topics of a running network: list, echo, hz, pub.")
@@ -114,10 +109,7 @@ def _as_data(topic: KnownTopic) -> dict[str, Any]:
 @command.command(short_help="Print messages as they come.")
 @click.argument("names", nargs=-1, required=True, metavar="TOPIC...",
                 shell_complete=_talking.completing(topic_names))  # fmt: skip
-@count_option
-@_talking.ending
-@type_option
-@with_topics
+@arriving_options
 def echo(
     topics: Topics, names: tuple[str, ...], count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:
@@ -136,10 +128,7 @@ def echo(
 @command.command(short_help="Measure the rate and the jitter of messages.")
 @click.argument("name", metavar="TOPIC", shell_complete=_talking.completing(topic_names))
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="Time between lines.")
-@count_option
-@_talking.ending
-@type_option
-@with_topics
+@arriving_options
 def hz(
     topics: Topics, name: str, every: float, count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:

@@ -14,6 +14,7 @@ import msgspec
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ALIVE, ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import Diagnosed
 from robocomp_yaml.network.network import Network
 
 __all__ = [
@@ -81,12 +82,8 @@ class Line(msgspec.Struct, frozen=True):
     time: str = ""
 
 
-class DeployFailed(Exception):
+class DeployFailed(Diagnosed):
     """An operation failed; the diagnostic (RC7xxx) has the reason and a hint."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
 
 
 class EngineHangs(DeployFailed):

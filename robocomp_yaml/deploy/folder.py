@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import pwd
 import re
@@ -116,17 +115,9 @@ def locked(folder: str, patience: float = 2.0) -> Iterator[bool]:
     make(folder)
     lock = os.open(f"{folder}/state", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
-        yield until(lambda: _acquire(lock), patience, 0.05)
+        yield until(lambda: whole_file.lock(lock), patience, 0.05)
     finally:
         os.close(lock)
-
-
-def _acquire(lock: int) -> bool:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def deployment_in(path: str) -> str:

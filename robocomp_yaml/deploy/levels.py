@@ -11,17 +11,15 @@ from robocomp_yaml.deploy.circles import circles_in
 from robocomp_yaml.deploy.plan import RESTART, START, Plan, PlanStep
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.digraph import postorder
+from robocomp_yaml.grouping import grouped
 
 
 def levels(plan: Plan, skipped: Collection[str]) -> list[list[PlanStep]]:
     """The steps that restart a running process, by level: each step is in a later level than all steps that it is
     after. The steps of a circle are in one level, because none of them is ready alone."""
     of = circles_in(plan).of
-    groups: dict[str | int, list[str]] = {}
-    for step in plan.steps.values():
-        if step.spec:
-            groups.setdefault(of.get(step.name, step.name), []).append(step.name)
     specs = {step.name: step.spec for step in plan.steps.values() if step.spec}
+    groups = grouped((of.get(name, name), name) for name in specs)
     after = {
         group: [of.get(other, other) for name in names for other in specs[name].process.after if other in specs]
         for group, names in groups.items()
@@ -31,10 +29,7 @@ def levels(plan: Plan, skipped: Collection[str]) -> list[list[PlanStep]]:
     for group in postorder(after, lambda group: after[group]):
         above[group] = 1 + max((above[other] for other in after[group] if other != group and other in above), default=0)
         depth |= dict.fromkeys(groups[group], above[group])
-    found: dict[int, list[PlanStep]] = {}
-    for step in plan.of(RESTART):
-        if step.name not in skipped:
-            found.setdefault(depth[step.name], []).append(step)
+    found = grouped((depth[step.name], step) for step in plan.of(RESTART) if step.name not in skipped)
     return [found[level] for level in sorted(found)]
 
 

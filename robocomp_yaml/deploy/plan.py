@@ -20,6 +20,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.digraph import postorder, reachable
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.network.network import Network, Process
 
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
@@ -106,10 +107,7 @@ def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
 
 def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:
     """These processes and all that are after them, directly or not. `after` has for each process what it is after."""
-    behind: dict[str, list[str]] = {}
-    for name, before in after.items():
-        for other in before:
-            behind.setdefault(other, []).append(name)
+    behind = grouped((other, name) for name, before in after.items() for other in before)
     return set(reachable(names, lambda name: behind.get(name, ())))
 
 

@@ -36,6 +36,14 @@ class Faulty(Exception):
         super().__init__("; ".join(one.message for one in self.diagnostics) or "the documents have errors")
 
 
+class Diagnosed(Exception):
+    """What was begun has no result; the diagnostic says why."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
 class NoAnswer(Exception):
     """A program with which rcyaml talks does not answer, or not as its documents say. The message is for users; `hint`
     is what helps, or ''."""

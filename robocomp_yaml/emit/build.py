@@ -23,6 +23,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.shared import Shared, own_modules
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.source.relative import relative
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -113,10 +114,10 @@ def _lodgers(program: Program, options: EmitOptions) -> dict[str, LinkedComponen
         return {}
     from robocomp_yaml.emit.component import component_root
 
-    by_root: dict[str, list[str]] = {}
-    for real in program.requested_components():
-        root = component_root(program.components[real].component.path, options)
-        by_root.setdefault(program.disk.real(root), []).append(real)
+    by_root = grouped(
+        (program.disk.real(component_root(program.components[real].component.path, options)), real)
+        for real in program.requested_components()
+    )
     lodgers: dict[str, LinkedComponent] = {}
     for root, reals in by_root.items():
         owners = [real for real in reals if os.path.basename(root).lower() in _names(program.components[real])]

@@ -12,7 +12,12 @@ from msgspec.structs import asdict
 
 
 class View(SimpleNamespace):
-    """What only templates read: strings, lists, and views."""
+    """What templates read: strings, lists, and views."""
+
+
+def changed(view: View, **fields: object) -> View:
+    """A view with other values of some fields."""
+    return View(**{**vars(view), **fields})
 
 
 def render(name: str, view: msgspec.Struct | View = View(), /, **more: object) -> str:

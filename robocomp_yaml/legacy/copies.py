@@ -15,6 +15,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.draft import base_name
 from robocomp_yaml.legacy.ledger import LedgerEntry
@@ -53,11 +54,8 @@ def from_search_path(
 
 def note_pulled(entries: Iterable[LedgerEntry]) -> Iterator[Diagnostic]:
     """Yield a note for each folder of the search path with interfaces that are migrated, too."""
-    by_folder: dict[str, list[str]] = {}
-    for entry in entries:
-        if entry.legacy.is_pulled:
-            by_folder.setdefault(os.path.dirname(entry.file.path), []).append(entry.file.path)
-    for folder, paths in by_folder.items():
+    pulled = (entry.file.path for entry in entries if entry.legacy.is_pulled)
+    for folder, paths in grouped((os.path.dirname(path), path) for path in pulled).items():
         names = some([base_name(path) for path in paths])
         yield codes.FROM_SEARCH_PATH.at(Span(paths[0]), count=len(paths), folder=folder, names=names)
 

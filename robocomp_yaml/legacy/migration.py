@@ -11,6 +11,7 @@ from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
@@ -110,10 +111,8 @@ def check_written(run: MigrationRun, extra: Sequence[str]) -> None:
         return
     from robocomp_yaml.pipeline import analyse
 
-    by_file: dict[str, list[Diagnostic]] = {}
-    for diagnostic in analyse([path for path, _ in documents], extra).diagnostics:
-        if diagnostic.severity == ERROR:
-            by_file.setdefault(os.path.realpath(diagnostic.span.file), []).append(diagnostic)
+    reported = analyse([path for path, _ in documents], extra).diagnostics
+    by_file = grouped((os.path.realpath(one.span.file), one) for one in reported if one.severity == ERROR)
     for path, entry in documents:
         found = by_file.get(os.path.realpath(path), [])
         errors = [error for error in found if not _is_reported(error, entry.diagnostics)]

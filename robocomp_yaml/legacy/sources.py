@@ -14,6 +14,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.legacy.formats import by_name, is_legacy_file
 from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
@@ -166,11 +167,10 @@ def _compiled(folder: str) -> set[str]:
 
 def _preferences(files: Sequence[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
     """Mark files that were generated from another one: with the same stem and kind, of a format with a lower rank."""
-    by_stem: dict[tuple[str, str], list[tuple[int, str]]] = {}
     named = [(file, by_name(file.path, known)) for file in files]
-    for file, rules in named:
-        if rules is not None:
-            by_stem.setdefault((os.path.splitext(file.path)[0], rules.kind), []).append((rules.rank, file.path))
+    by_stem = grouped(
+        ((os.path.splitext(file.path)[0], rules.kind), (rules.rank, file.path)) for file, rules in named if rules
+    )
     for file, rules in named:
         if rules is not None and rules.is_made:
             rank, other = min(by_stem[(os.path.splitext(file.path)[0], rules.kind)])

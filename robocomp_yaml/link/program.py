@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.digraph import postorder
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
 from robocomp_yaml.plugins import NONE, Plugins
@@ -212,3 +213,9 @@ class Program(msgspec.Struct, frozen=True):
         """Every parameter document, once for each component with it."""
         every = (*self.parameters.values(), *(component.parameters for component in self.components.values()))
         yield from (linked for linked in dict.fromkeys(every) if linked.document is not None)
+
+
+def interfaces_by_name(modules: Iterable[LinkedModule]) -> dict[str, list[tuple[LinkedModule, Interface]]]:
+    """The interfaces and topics of modules with their module, by name, and by name behind that of the module."""
+    every = [(scope, one) for scope in modules for one in scope.module.all_interfaces]
+    return grouped((name, (s, one)) for s, one in every for name in (one.name, f"{s.module.name}.{one.name}"))

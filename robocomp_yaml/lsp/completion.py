@@ -9,7 +9,6 @@ from robocomp_yaml.api.completing.places import typed_at
 from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.completing.proposals import codes_at, importing, of_schema_server, proposals
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.server import YES, Server
 from robocomp_yaml.naming import names
 
@@ -24,42 +23,36 @@ _KINDS = {
 
 
 def add(server: Server) -> None:
-    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[".", "[", " "]))
-    async def complete(params: types.CompletionParams) -> list[types.CompletionItem]:
-        path = real_path(params.text_document.uri) or ""
-
-        def job() -> list[types.CompletionItem]:
-            document = server.session.open.get(path)
-            if document is None or not server.session.is_document(path):
-                return []
-            lines = server.lines(document.text)
-            line, column = lines.place(params.position)
-            reported = server.session.workspace_of(path).found.get(path, ())
-            coded = codes_at(lines.line(line), column, reported, line)
-            if coded is not None:
-                where = lines.range(Span(path, line, coded[0], line, column))
-                return [_item(one, where, [], f"{n:04}") for n, one in enumerate(coded[1])]
-            place = typed_at(document.text, line, column)
-            if place is None:
-                return []
-            known = server.session.names_around(path, may_be_old=True)
-            with_schema = not server.has_schema_server(path)
-            where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
-            program = known.program
-            made = proposals(
-                path, place, known.names, server.session.importable(path), program, with_schema=with_schema
-            )
-            # A document that is made for a server of schemas may be open in an editor without one.
-            told = of_schema_server(path, place) if server.schema_server == YES else frozenset()
-            return [
-                _item(one, where, [
-                    types.TextEdit(server.lines(place.text).range(edit.span), edit.text)
-                    for edit in importing(path, place, one.imports)
-                ])
-                for one in made if one.text not in told
-            ]  # fmt: skip
-
-        return await server.run(job)
+    @server.answers(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[".", "[", " "]))
+    def complete(params: types.CompletionParams) -> list[types.CompletionItem]:
+        if (document := server.document(params.text_document)) is None:
+            return []
+        path = document.path
+        lines = server.lines(document.text)
+        line, column = lines.place(params.position)
+        reported = server.session.workspace_of(path).found.get(path, ())
+        coded = codes_at(lines.line(line), column, reported, line)
+        if coded is not None:
+            where = lines.range(Span(path, line, coded[0], line, column))
+            return [_item(one, where, [], f"{n:04}") for n, one in enumerate(coded[1])]
+        place = typed_at(document.text, line, column)
+        if place is None:
+            return []
+        known = server.session.names_around(path, may_be_old=True)
+        with_schema = not server.has_schema_server(path)
+        where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
+        program = known.program
+        importable = server.session.importable(path)
+        made = proposals(path, place, known.names, importable, program, with_schema=with_schema)
+        # A document that is made for a server of schemas may be open in an editor without one.
+        told = of_schema_server(path, place) if server.schema_server == YES else frozenset()
+        return [
+            _item(one, where, [
+                types.TextEdit(server.lines(place.text).range(edit.span), edit.text)
+                for edit in importing(path, place, one.imports)
+            ])
+            for one in made if one.text not in told
+        ]  # fmt: skip
 
 
 def _item(one: Proposal, where: types.Range, more: list[types.TextEdit], order: str = "") -> types.CompletionItem:

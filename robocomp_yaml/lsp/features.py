@@ -78,48 +78,40 @@ def make(include: Iterable[str] = ()) -> Server:
         await server.run(change)
         await server.saved()
 
-    @server.feature(
+    @server.answers(
         types.TEXT_DOCUMENT_CODE_ACTION,
         types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix, commands.SOURCE]),
     )
-    async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
+    def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
         path, only = real_path(params.text_document.uri) or "", params.context.only
+        made: list[types.CodeAction] = []
+        is_asked = only is None or any("quickfix".startswith(one) for one in only)
+        if path in server.session.code:
+            found, texts = server.session.of_code(path)
+            return server.messages(texts).actions(found, params.range) if is_asked else []
+        if path not in server.session.open:
+            return []
+        if is_asked:
+            found, texts = server.session.of_document(path)
+            if any(one.code in MORE for one in found):
+                known = server.session.names_around(path)
+                found, texts = with_more(found, known), known.texts
+            made += server.messages(texts).actions(found, params.range)
+        if only is not None and any(commands.SOURCE.value.startswith(one) for one in only):
+            made += commands.actions(params.text_document.uri) if server.session.is_document(path) else []
+        return made
 
-        def job() -> list[types.CodeAction]:
-            made: list[types.CodeAction] = []
-            is_asked = only is None or any("quickfix".startswith(one) for one in only)
-            if path in server.session.code:
-                found, texts = server.session.of_code(path)
-                return server.messages(texts).actions(found, params.range) if is_asked else []
-            if path not in server.session.open:
-                return []
-            if is_asked:
-                found, texts = server.session.of_document(path)
-                if any(one.code in MORE for one in found):
-                    known = server.session.names_around(path)
-                    found, texts = with_more(found, known), known.texts
-                made += server.messages(texts).actions(found, params.range)
-            if only is not None and any(commands.SOURCE.value.startswith(one) for one in only):
-                made += commands.actions(params.text_document.uri) if server.session.is_document(path) else []
-            return made
-
-        return await server.run(job)
-
-    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
-    async def formatted(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    @server.answers(types.TEXT_DOCUMENT_FORMATTING)
+    def formatted(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
         from robocomp_yaml.api.formatting import layout
 
-        def job() -> list[types.TextEdit]:
-            document = server.session.open.get(real_path(params.text_document.uri) or "")
-            if document is None or not server.session.is_document(document.path):
-                return []  # such as another program's YAML
-            after = layout(document.path, document.raw)[0]
-            if not isinstance(after, bytes) or after == document.raw:
-                return []  # a broken document stays as it is
-            whole = types.Range(types.Position(0, 0), server.lines(document.text).end())
-            return [types.TextEdit(whole, after.decode())]
-
-        return await server.run(job)
+        if (document := server.document(params.text_document)) is None:
+            return []  # such as another program's YAML
+        after = layout(document.path, document.raw)[0]
+        if not isinstance(after, bytes) or after == document.raw:
+            return []  # a broken document stays as it is
+        whole = types.Range(types.Position(0, 0), server.lines(document.text).end())
+        return [types.TextEdit(whole, after.decode())]
 
     navigation.add(server)
     completion.add(server)

@@ -38,7 +38,7 @@ _MANY = 500  # symbols of a workspace
 
 
 def add(server: Server) -> None:
-    async def asked(
+    def asked(
         params: types.DefinitionParams
         | types.ReferenceParams
         | types.HoverParams
@@ -48,82 +48,72 @@ def add(server: Server) -> None:
     ) -> _Answer | None:
         """The answer about the name at a position; None if there is none."""
         path = real_path(params.text_document.uri)
-
-        def job() -> _Answer | None:
-            if path is None:
-                return None
-            is_document = server.session.is_checked(path)
-            if is_document and path not in server.session.open:
-                return None
-            known = server.session.names_around(path)
-            lines = server.lines(server.session.text_of(path))  # code need not be open
-            place = lines.place(params.position)
-            found = known.names.at(path, *place) if is_document else name_in_code(server.session, path, *place)
-            if found is None:
-                return None
-            return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
-
-        return await server.run(job)
-
-    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
-    async def definition(params: types.DefinitionParams) -> types.Location | None:
-        return await asked(params, lambda one, _, known, messages: messages.location(one.span)) or await linked(params)
-
-    async def linked(params: types.DefinitionParams) -> types.Location | None:
-        """The file that a path in a document means."""
-        path = real_path(params.text_document.uri)
-
-        def job() -> types.Location | None:
-            if path not in server.session.open or path is None or not server.session.is_document(path):
-                return None
-            known = server.session.names_around(path)
-            line, column = server.lines(server.session.text_of(path)).place(params.position)
-            for span, file in named_files(known.analysis, known.names, path):
-                if span.line == line == span.end_line and span.column <= column <= span.end_column:
-                    return server.messages(known.texts).location(Span(file))
+        if path is None:
             return None
+        is_document = server.session.is_checked(path)
+        if is_document and path not in server.session.open:
+            return None
+        known = server.session.names_around(path)
+        lines = server.lines(server.session.text_of(path))  # code need not be open
+        place = lines.place(params.position)
+        found = known.names.at(path, *place) if is_document else name_in_code(server.session, path, *place)
+        if found is None:
+            return None
+        return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
 
-        return await server.run(job)
+    def located(
+        params: types.ReferenceParams | types.ImplementationParams | types.DeclarationParams,
+        spans: Callable[[DefinedName, KnownNames], Iterable[Span]],
+    ) -> list[types.Location] | None:
+        """The places of the name at a position that `spans` finds."""
+        return asked(params, lambda one, _, known, messages: [messages.location(span) for span in spans(one, known)])
 
-    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
-    async def references(params: types.ReferenceParams) -> list[types.Location] | None:
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
+    @server.answers(types.TEXT_DOCUMENT_DEFINITION)
+    def definition(params: types.DefinitionParams) -> types.Location | None:
+        return asked(params, lambda one, _, known, messages: messages.location(one.span)) or linked(params)
+
+    def linked(params: types.DefinitionParams) -> types.Location | None:
+        """The file that a path in a document means."""
+        if (document := server.document(params.text_document)) is None:
+            return None
+        known = server.session.names_around(document.path)
+        line, column = server.lines(document.text).place(params.position)
+        for span, file in named_files(known.analysis, known.names, document.path):
+            if span.line == line == span.end_line and span.column <= column <= span.end_column:
+                return server.messages(known.texts).location(Span(file))
+        return None
+
+    @server.answers(types.TEXT_DOCUMENT_REFERENCES)
+    def references(params: types.ReferenceParams) -> list[types.Location] | None:
+        def spans(one: DefinedName, known: KnownNames) -> Iterator[Span]:
             own = [one.span] if params.context.include_declaration else []
-            spans = sorted({*own, *known.names.uses.get(one.key, ())})
-            in_code = sorted(span for span, _ in _in_code(one, known))
-            return [messages.location(span) for span in (*spans, *in_code, *_in_generated(one, known))]
+            yield from sorted({*own, *known.names.uses.get(one.key, ())})
+            yield from sorted(span for span, _ in _in_code(one, known))
+            yield from _in_generated(one, known)
 
-        return await asked(params, answer)
+        return located(params, spans)
 
-    @server.feature(types.TEXT_DOCUMENT_DECLARATION)
-    async def declaration(params: types.DeclarationParams) -> list[types.Location] | None:
+    @server.answers(types.TEXT_DOCUMENT_DECLARATION)
+    def declaration(params: types.DeclarationParams) -> list[types.Location] | None:
         """What was generated from a name, and Slice that was written by hand with it."""
-
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
-            return [messages.location(span) for span in _in_generated(one, known)]
-
-        return await asked(params, answer)
+        return located(params, _in_generated)
 
     def _in_generated(one: DefinedName, known: KnownNames) -> Iterator[Span]:
         yield from places_in_generated(known.program, known.names, one)
         yield from in_slice(server.session, known, one)
 
-    @server.feature(types.TEXT_DOCUMENT_IMPLEMENTATION)
-    async def implementation(params: types.ImplementationParams) -> list[types.Location] | None:
+    @server.answers(types.TEXT_DOCUMENT_IMPLEMENTATION)
+    def implementation(params: types.ImplementationParams) -> list[types.Location] | None:
         """The methods in the user's code that implement a method, or handle an event or a state."""
-
-        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
-            return [messages.location(span) for span, is_method in sorted(_in_code(one, known)) if is_method]
-
-        return await asked(params, answer)
+        return located(params, lambda one, known: sorted(span for span, is_method in _in_code(one, known) if is_method))
 
     def _in_code(one: DefinedName, known: KnownNames) -> list[tuple[Span, bool]]:
         workspace = server.session.workspace_of(one.span.file)
         look = workspace.living.look(workspace.root)
         return places_in_code(look.analysis, known.names, one, lambda texts: look.with_texts(texts).analysis)
 
-    @server.feature(types.TEXT_DOCUMENT_HOVER)
-    async def hover(params: types.HoverParams) -> types.Hover | None:
+    @server.answers(types.TEXT_DOCUMENT_HOVER)
+    def hover(params: types.HoverParams) -> types.Hover | None:
         def answer(one: DefinedName, where: types.Range, known: KnownNames, messages: Messages) -> types.Hover:
             told = _of_schema(params)
             count = len(set(known.names.uses.get(one.key, ())))
@@ -135,7 +125,7 @@ def add(server: Server) -> None:
         def of_value() -> types.Hover | None:
             """What the value of a parameter is, unless a server of schemas says it. None knows the keys of `set:`."""
             path = real_path(params.text_document.uri) or ""
-            found = _typed(path, params.position)
+            found = _typed(params)
             if found is None or (found[0] == "config" and server.has_schema_server(path)):
                 return None
             kind, place, where = found
@@ -146,15 +136,14 @@ def add(server: Server) -> None:
             told = _of_schema(params)
             return _markdown(*told) if told is not None else None
 
-        return await asked(params, answer) or await server.run(of_value) or await server.run(of_schema)
+        return asked(params, answer) or of_value() or of_schema()
 
-    def _typed(path: str, position: types.Position) -> tuple[str, TypedPlace, types.Range] | None:
+    def _typed(params: types.HoverParams) -> tuple[str, TypedPlace, types.Range] | None:
         """The kind of an open document, and the key or value at a position with its range."""
-        document = server.session.open.get(path)
-        if document is None or not server.session.is_document(path):
+        if (document := server.document(params.text_document)) is None:
             return None
-        lines = server.lines(document.text)
-        place = typed_at(document.text, *lines.place(position))
+        path, lines = document.path, server.lines(document.text)
+        place = typed_at(document.text, *lines.place(params.position))
         if place is None or place.column == place.end_column:
             return None
         where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
@@ -163,7 +152,7 @@ def add(server: Server) -> None:
     def _of_schema(params: types.HoverParams) -> tuple[str, types.Range] | None:
         """What the schema says of the key or value at a position, unless a server of schemas says it."""
         path = real_path(params.text_document.uri) or ""
-        found = _typed(path, params.position)
+        found = _typed(params)
         if found is None or server.has_schema_server(path):
             return None
         kind, place, where = found
@@ -172,30 +161,23 @@ def add(server: Server) -> None:
         text = schema_keys.about(kind, (*place.keys, word) if place.is_key else place.keys)
         return (text, where) if text else None
 
-    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-    async def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+    @server.answers(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
         path = real_path(params.text_document.uri)
+        if path is None or path not in server.session.open:
+            return []
+        known = server.session.names_around(path)
+        return _tree(known.names.in_document(path), server.messages(known.texts))
 
-        def job() -> list[types.DocumentSymbol]:
-            known = server.session.names_around(path) if path in server.session.open and path else None
-            if known is None or path is None:
-                return []
-            return _tree(known.names.in_document(path), server.messages(known.texts))
-
-        return await server.run(job)
-
-    @server.feature(types.WORKSPACE_SYMBOL)
-    async def all_symbols(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
-        def job() -> list[types.WorkspaceSymbol]:
-            found = []
-            for known in server.session.names_everywhere():
-                messages = server.messages(known.texts)
-                for one in known.names.defined.values():
-                    if _matches(params.query, one.name) and one.kind in _SYMBOLS:
-                        found.append(types.WorkspaceSymbol(messages.location(one.span), one.name, _SYMBOLS[one.kind]))
-            return found[:_MANY]
-
-        return await server.run(job)
+    @server.answers(types.WORKSPACE_SYMBOL)
+    def all_symbols(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+        found = []
+        for known in server.session.names_everywhere():
+            messages = server.messages(known.texts)
+            for one in known.names.defined.values():
+                if _matches(params.query, one.name) and one.kind in _SYMBOLS:
+                    found.append(types.WorkspaceSymbol(messages.location(one.span), one.name, _SYMBOLS[one.kind]))
+        return found[:_MANY]
 
 
 def _markdown(text: str, where: types.Range) -> types.Hover:

@@ -10,10 +10,12 @@ from pygls.exceptions import JsonRpcException
 
 from robocomp_yaml.api.renaming import Renaming
 from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.lsp.messages import real_path, uri_of_path
 from robocomp_yaml.lsp.positions import TextLines
 from robocomp_yaml.lsp.server import Server
-from robocomp_yaml.lsp.session import KnownNames
+from robocomp_yaml.lsp.session import EditedText, KnownNames
 from robocomp_yaml.naming.names import DefinedName
 from robocomp_yaml.naming.of_files import edits_of_moves, file_after
 from robocomp_yaml.naming.renaming import NameEdit
@@ -34,63 +36,51 @@ class RenameRefused(JsonRpcException):
 
 
 def add(server: Server) -> None:
-    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
-    async def prepare(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-        path = real_path(params.text_document.uri) or ""
+    def named(
+        params: types.PrepareRenameParams | types.RenameParams,
+    ) -> tuple[KnownNames, tuple[Span, DefinedName] | None, EditedText] | None:
+        """The names around an open document, that at a position which can get another name, and the document."""
+        if (document := server.document(params.text_document)) is None:
+            return None
+        known = server.session.names_around(document.path)
+        found = known.names.at(document.path, *server.lines(document.text).place(params.position))
+        return known, found if found is not None and found[0] not in known.names.paths else None, document
 
-        def job() -> types.PrepareRenamePlaceholder | None:
-            document = server.session.open.get(path)
-            if document is None or not server.session.is_document(path):
-                return None
-            lines = server.lines(document.text)
-            known = server.session.names_around(path)
-            found = known.names.at(path, *lines.place(params.position))
-            if found is None or found[0] in known.names.paths:
-                return None
-            return types.PrepareRenamePlaceholder(lines.range(found[0]), found[1].name)
+    @server.answers(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepare(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+        match named(params):
+            case _, (span, one), document:
+                return types.PrepareRenamePlaceholder(server.lines(document.text).range(span), one.name)
+        return None
 
-        return await server.run(job)
+    @server.answers(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    def rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
+        if (asked := named(params)) is None:
+            return None
+        known, found, document = asked
+        if found is None:
+            raise RenameRefused("this is not a name of the documents")
+        workspace = server.session.workspace_of(document.path)
+        look = workspace.living.look(workspace.root)
+        try:
+            made = Renaming(look, look.with_texts, [workspace.root], found[1], params.new_name, known.names)
+        except (Refused, Faulty) as refused:
+            raise RenameRefused(f"'{params.new_name}': {refused}") from None
+        return _edit(server, made, known, _with_file(server, found[1], params.new_name))
 
-    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
-    async def rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
-        path = real_path(params.text_document.uri) or ""
-
-        def job() -> types.WorkspaceEdit | None:
-            document = server.session.open.get(path)
-            if document is None or not server.session.is_document(path):
-                return None
-            place = server.lines(document.text).place(params.position)
-            known = server.session.names_around(path)
-            found = known.names.at(path, *place)
-            if found is None or found[0] in known.names.paths:
-                raise RenameRefused("this is not a name of the documents")
-            workspace = server.session.workspace_of(path)
-            look = workspace.living.look(workspace.root)
-            try:
-                made = Renaming(look, look.with_texts, [workspace.root], found[1], params.new_name, known.names)
-            except (Refused, Faulty) as refused:
-                raise RenameRefused(f"'{params.new_name}': {refused}") from None
-            return _edit(server, made, known, _with_file(server, found[1], params.new_name))
-
-        return await server.run(job)
-
-    @server.feature(types.WORKSPACE_WILL_RENAME_FILES, FILES)
-    async def will_rename(params: types.RenameFilesParams) -> types.WorkspaceEdit | None:
+    @server.answers(types.WORKSPACE_WILL_RENAME_FILES, FILES)
+    def will_rename(params: types.RenameFilesParams) -> types.WorkspaceEdit | None:
         """The edits of all paths to files and folders that will be renamed."""
-
-        def job() -> types.WorkspaceEdit | None:
-            moves = {old: new for one in params.files
-                     if (old := real_path(one.old_uri)) and (new := real_path(one.new_uri)) and old != new}  # fmt: skip
-            roots = {server.session.root_of(path): path for path in (*server.session.open, *moves)}
-            made: dict[str, list[NameEdit]] = {}
-            for path in roots.values():
-                known = server.session.names_around(path)
-                for edit in edits_of_moves(known.analysis, known.names, moves):
-                    edits = made.setdefault(os.path.realpath(edit.span.file), [])
-                    edits += [] if edit in edits else [edit]
-            return _workspace_edit(server, made, is_annotated=False) if made else None
-
-        return await server.run(job)
+        moves = {old: new for one in params.files
+                 if (old := real_path(one.old_uri)) and (new := real_path(one.new_uri)) and old != new}  # fmt: skip
+        roots = {server.session.root_of(path): path for path in (*server.session.open, *moves)}
+        made: dict[str, list[NameEdit]] = {}
+        for path in roots.values():
+            known = server.session.names_around(path)
+            for edit in edits_of_moves(known.analysis, known.names, moves):
+                edits = made.setdefault(os.path.realpath(edit.span.file), [])
+                edits += [] if edit in edits else [edit]
+        return _workspace_edit(server, made, is_annotated=False) if made else None
 
 
 def _with_file(server: Server, one: DefinedName, name: str) -> tuple[str, str] | None:
@@ -112,10 +102,7 @@ def _can(server: Server) -> types.WorkspaceEditClientCapabilities | None:
 def _edit(server: Server, made: Renaming, known: KnownNames, file: tuple[str, str] | None) -> types.WorkspaceEdit:
     can = _can(server)
     is_annotated = can is not None and can.change_annotation_support is not None
-    by_file: dict[str, list[NameEdit]] = {}
-    for one in made.edits:
-        by_file.setdefault(one.span.file, []).append(one)
-    edit = _workspace_edit(server, by_file, is_annotated=is_annotated)
+    edit = _workspace_edit(server, _by_file(made.edits), is_annotated=is_annotated)
     if not is_annotated:
         return edit
     edit.change_annotations = {
@@ -129,9 +116,8 @@ def _edit(server: Server, made: Renaming, known: KnownNames, file: tuple[str, st
 
 def _add_file(server: Server, edit: types.WorkspaceEdit, known: KnownNames, old: str, new: str) -> None:
     """Adds that a file is renamed, with all paths to it, as one change that has to be confirmed."""
-    paths: dict[str, list[NameEdit]] = {}
-    for one in edits_of_moves(known.analysis, known.names, {os.path.realpath(old): os.path.realpath(new)}):
-        paths.setdefault(one.span.file, []).append(one)
+    moves = {os.path.realpath(old): os.path.realpath(new)}
+    paths = _by_file(edits_of_moves(known.analysis, known.names, moves))
     changes = list(edit.document_changes or ())
     of_file = {one.text_document.uri: one for one in changes if isinstance(one, types.TextDocumentEdit)}
     for more in _changes(server, paths, _OF_FILE):
@@ -162,6 +148,10 @@ def _workspace_edit(
             for lines in [server.lines(server.session.text_of(path))]
         }
     )
+
+
+def _by_file(edits: Iterable[NameEdit]) -> dict[str, list[NameEdit]]:
+    return grouped((one.span.file, one) for one in edits)
 
 
 def _changes(

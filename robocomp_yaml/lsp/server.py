@@ -13,6 +13,7 @@ import logging
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any, BinaryIO, TypeVar
 
 from lsprotocol import types
@@ -21,7 +22,7 @@ from pygls.lsp.server import LanguageServer
 from robocomp_yaml import __version__
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.lsp.messages import SOURCE, Messages, path_of, uri_of_path
+from robocomp_yaml.lsp.messages import SOURCE, Messages, path_of, real_path, uri_of_path
 from robocomp_yaml.lsp.positions import UTF16, TextLines
 from robocomp_yaml.lsp.session import Cancelled, EditedText, Session
 from robocomp_yaml.source.spelled import DocumentTexts
@@ -67,6 +68,21 @@ class Server(LanguageServer):
         if self._jobs - self._collected > MANY_JOBS:  # typing never rests
             await asyncio.get_running_loop().run_in_executor(self._worker, self._collect)
         return await asyncio.get_running_loop().run_in_executor(self._worker, job)
+
+    def answers(self, method: str, options: object = None) -> Callable[[Callable[[Any], object]], None]:
+        """A function with this decorator answers a message, in the thread of analyses."""
+
+        def register(answer: Callable[[Any], object]) -> None:
+            @self.feature(method, options)
+            async def asked(params: Any) -> Any:
+                return await self.run(partial(answer, params))
+
+        return register
+
+    def document(self, named: types.TextDocumentIdentifier) -> EditedText | None:
+        """The document that a message means, if it is open and one of rcyaml's."""
+        document = self.session.open.get(real_path(named.uri) or "")
+        return document if document is not None and self.session.is_document(document.path) else None
 
     def _collect(self) -> None:
         """Collects garbage, which otherwise would be done in the middle of an analysis: all that it makes is young."""

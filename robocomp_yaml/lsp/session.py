@@ -19,6 +19,7 @@ import msgspec
 
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import ImportSearch, above, root_above
 from robocomp_yaml.lsp.moved import moved
@@ -338,9 +339,7 @@ class Session:
             workspace.found, workspace.is_known = {root: found}, True
             return workspace.found
         whole = workspace.living.load(go_on, lambda: go_on(root))
-        before, workspace.found = workspace.found, {}
-        for one in whole.check():
-            workspace.found.setdefault(one.span.file, []).append(one)
+        before, workspace.found = workspace.found, grouped((one.span.file, one) for one in whole.check())
         workspace.texts, workspace.is_known, workspace.whole = whole.analysis.texts, True, whole.analysis
         if workspace.last_names is not None or len(whole.analysis.documents) <= FEW:  # they are, or will be, asked for
             self._collect_names(workspace, whole.analysis)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable, Collection, Mapping
+from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -133,20 +133,26 @@ def _plan(managed: ManagedDeployment, query: QueryParams) -> Any:
 def _operation(action: str) -> Callable[[Served, Request], Awaitable[Any]]:
     async def run(served: Served, request: Request) -> Any:
         wanted, watcher = await body_of(request, OperationRequest), served.watcher(request)
-        events, loop = watcher.events, asyncio.get_running_loop()
-
-        def report(event: Any) -> None:
-            data = {"action": action, **msgspec.to_builtins(event)}
-            loop.call_soon_threadsafe(events.send, PROGRESS, data)
-
-        events.happened("", f"{action} {' '.join(wanted.names)}".rstrip())
-        done = await asyncio.to_thread(
-            watcher.managed.operate, action, wanted.names, wanted.on_failure, wanted.timeout, report
-        )
-        events.happened("", f"{action}: {'done' if done['ok'] else 'failed'}")
-        return done
+        return await _carried_out(watcher, action, wanted.names, lambda report: watcher.managed.operate(
+            action, wanted.names, wanted.on_failure, wanted.timeout, lambda event: report(msgspec.to_builtins(event)),
+        ))  # fmt: skip
 
     return run
+
+
+async def _carried_out(
+    watcher: Watcher, action: str, names: Sequence[str], work: Callable[[Callable[[dict[str, Any]], None]], Any]
+) -> Any:
+    """Does what takes a while in a thread, and tells all pages of its beginning, its progress and its end."""
+    events, loop = watcher.events, asyncio.get_running_loop()
+
+    def report(data: dict[str, Any]) -> None:
+        loop.call_soon_threadsafe(events.send, PROGRESS, {"action": action, **data})
+
+    events.happened("", f"{action} {' '.join(names)}".rstrip())
+    done = await asyncio.to_thread(work, report)
+    events.happened("", f"{action}: {'done' if done['ok'] else 'failed'}")
+    return done
 
 
 def _logs(managed: ManagedDeployment, query: QueryParams) -> Any:
@@ -231,15 +237,9 @@ async def _set_parameter(served: Served, request: Request) -> Any:
 
 async def _push(served: Served, request: Request) -> Any:
     wanted, watcher = await body_of(request, PushRequest), served.watcher(request)
-    events, loop = watcher.events, asyncio.get_running_loop()
-
-    def report(host: str, path: str) -> None:
-        loop.call_soon_threadsafe(events.send, PROGRESS, {"action": "push", "host": host, "path": path})
-
-    events.happened("", f"push {' '.join(wanted.hosts)}".rstrip())
-    done = await asyncio.to_thread(watcher.managed.push, wanted.hosts, report)
-    events.happened("", f"push: {'done' if done['ok'] else 'failed'}")
-    return done
+    return await _carried_out(watcher, "push", wanted.hosts, lambda report: watcher.managed.push(
+        wanted.hosts, lambda host, path: report({"host": host, "path": path}),
+    ))  # fmt: skip
 
 
 ONE = "/deployments/{deployment}"

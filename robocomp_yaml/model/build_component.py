@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.model import component as model
-from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text, texts
+from robocomp_yaml.model.build_interface import doc, given, imports, items, span_of, text, texts
 from robocomp_yaml.model.duration import seconds
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
@@ -31,7 +31,7 @@ def build(root: Mapping, path: str) -> model.Component:
         period=None if period is None else round(period * 1000),
         statemachine=text(root, "statemachine"),
         machine=_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
-        gui=_gui(root.get("gui")),
+        gui=given(root, "gui", _gui),
         options=tuple(texts(root, "options")),
         compatibility=text(root, "compatibility"),
         sources=tuple(_sources(root.get("uses"))),
@@ -64,8 +64,8 @@ def _language(root: Mapping) -> model.Language:
     return model.Language(node.lexeme, span=node.span)
 
 
-def _gui(node: Node | None) -> model.Gui | None:
-    return model.Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
+def _gui(node: Node) -> model.Gui:
+    return model.Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span)
 
 
 def _uses(root: Mapping, key: str) -> Iterator[model.Use]:

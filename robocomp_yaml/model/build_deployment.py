@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import TypeVar
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.model.build_host import host, limits, listen, variable
-from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
+from robocomp_yaml.model.build_host import host, limits, listen, pairs, variable
+from robocomp_yaml.model.build_interface import as_text, doc, entries, given, integer, required, span_of, text, texts
 from robocomp_yaml.model.duration import seconds
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.port_range import port_range
@@ -45,24 +45,18 @@ def build(root: Mapping, path: str) -> model.Deployment:
     )
 
 
-def _of(root: Mapping, name: str, make: Callable[[Node | None], _Made]) -> _Made:
-    """What is made of a node of a document, kept with it."""
+def _of(root: Mapping, name: str, make: Callable[[Node], _Made]) -> _Made | None:
+    """What is made of a node of a document, kept with it; None if it is not set."""
     node = root.get(name)
-    return once(_ignoring_key, root.entries[name][0], node, make) if node is not None else make(None)
+    return once(_ignoring_key, root.entries[name][0], node, make) if node is not None else None
 
 
-def _ignoring_key(_: Scalar, node: Node, make: Callable[[Node | None], _Made]) -> _Made:
+def _ignoring_key(_: Scalar, node: Node, make: Callable[[Node], _Made]) -> _Made:
     return make(node)
 
 
 def _text(parent: Node, key: str) -> Text | None:
     return as_text(parent.get(key))
-
-
-def _integer(parent: Node | None, key: str) -> int | None:
-    """An integer. The schema also allows a float without a fraction, such as `3.0`."""
-    node = parent.get(key) if parent else None
-    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None
 
 
 def _storm(key: Scalar, node: Node) -> model.Storm:
@@ -72,9 +66,9 @@ def _storm(key: Scalar, node: Node) -> model.Storm:
     return model.Storm(
         key.lexeme,
         _text(inner, "host"),
-        _integer(inner, "port"),
+        integer(inner, "port"),
         doc(node),
-        _integer(inner, "publish"),
+        integer(inner, "publish"),
         inner.data.get("shared") is True,  # type: ignore[attr-defined]
         span=key.span,
         port_span=span_of(inner, "port"),
@@ -100,19 +94,19 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         ports=tuple(_port(name.lexeme, value, name.span) for name, value in entries(node, "ports")),
         config=_text(node, "config"),
         config_as=_text(node, "config-as"),
-        connect=tuple(_pairs(node, "connect")),
-        topics=tuple(_pairs(node, "topics")),
+        connect=pairs(entries(node, "connect")),
+        topics=pairs(entries(node, "topics")),
         settings=settings if isinstance(settings, Mapping) else None,
-        restart=_restart(node.get("restart")),
-        ready=_ready(node.get("ready")),
+        restart=given(node, "restart", _restart),
+        ready=given(node, "ready", _ready),
         role=text(node, "role"),
-        alive=_alive(node.get("alive")),
+        alive=given(node, "alive", _alive),
         listen=listen(node),
-        limits=limits(node.get("limits")),
-        endpoints=tuple(_pairs(node, "endpoints")),
+        limits=given(node, "limits", limits),
+        endpoints=pairs(entries(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]
-        instances=_integer(node, "instances"),
+        instances=integer(node, "instances"),
         extra=_extra(node.get("x-rcmanager")),
         doc=doc(node),
         span=key.span,
@@ -124,29 +118,19 @@ def _port(interface: str, node: Node, name_span: Span) -> model.Number:
     return model.Number(interface, int(node.data), span=node.span, name_span=name_span)  # type: ignore[call-overload]
 
 
-def _pairs(node: Node, key: str) -> Iterator[model.Pair]:
-    for name, value in entries(node, key):
-        if isinstance(value, Scalar):
-            yield model.Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
-
-
-def _restart(node: Node | None) -> model.Restart | None:
-    if node is None:
-        return None
+def _restart(node: Node) -> model.Restart:
     if isinstance(node, Scalar):
         return model.Restart(node.lexeme, span=node.span)
     delay, within = seconds(node.get("delay")), seconds(node.get("within"))
-    return model.Restart(text(node, "policy", model.ON_FAILURE), delay, _integer(node, "tries"), within, span=node.span)
+    return model.Restart(text(node, "policy", model.ON_FAILURE), delay, integer(node, "tries"), within, span=node.span)
 
 
-def _ready(node: Node | None) -> model.Ready | None:
-    if node is None:
-        return None
+def _ready(node: Node) -> model.Ready:
     if not isinstance(node, Mapping):
         return model.Ready(seconds(node), span=node.span)
     return model.Ready(
         seconds(node.get("within")),
-        _integer(node, "port"),
+        integer(node, "port"),
         _command(node.get("command")),
         text(node, "log"),
         text(node, "ping"),
@@ -156,9 +140,7 @@ def _ready(node: Node | None) -> model.Ready | None:
     )
 
 
-def _alive(node: Node | None) -> model.Alive | None:
-    if node is None:
-        return None
+def _alive(node: Node) -> model.Alive:
     if not isinstance(node, Mapping):
         return model.Alive(isinstance(node, Scalar) and node.lexeme == "on", span=node.span)
     worker = node.get("worker")
@@ -168,7 +150,7 @@ def _alive(node: Node | None) -> model.Alive | None:
         None,
         seconds(node.get("every")),
         seconds(node.get("within")),
-        _integer(node, "misses"),
+        integer(node, "misses"),
         then == "restart" if then else None,
         math.inf if is_off else seconds(worker),
         span=node.span,

@@ -3,8 +3,10 @@ and limits. The tree fits the schema."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.model.build_interface import as_text, doc, entries, required, text, texts
+from robocomp_yaml.model.build_interface import as_text, doc, entries, given, integer, required, text, texts
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -25,7 +27,7 @@ def host(key: Scalar, node: Node) -> model.Host:
         _paths(node.get("path")),
         tuple(variable(name, value) for name, value in entries(node, "env")),
         as_text(node.get("python")),
-        limits(node.get("limits")),
+        given(node, "limits", limits),
         text(node, "systemd"),
         span=key.span,
     )
@@ -45,7 +47,7 @@ def _ssh(node: Node | None, key: Scalar) -> model.SshOptions:
         return model.SshOptions(span=key.span)
     return model.SshOptions(
         text(node, "user"),
-        _integer(node, "port"),
+        integer(node, "port"),
         text(node, "identity"),
         text(node, "known-hosts"),
         text(node, "jump"),
@@ -56,10 +58,14 @@ def _ssh(node: Node | None, key: Scalar) -> model.SshOptions:
 def _paths(node: Node | None) -> tuple[model.Pair, ...]:
     if isinstance(node, Scalar):
         return (model.Pair("", node.lexeme, span=node.span),)
-    pairs = node.items() if isinstance(node, Mapping) else ()
+    return pairs(node.items() if isinstance(node, Mapping) else ())
+
+
+def pairs(entries: Iterable[tuple[Scalar, Node]]) -> tuple[model.Pair, ...]:
+    """Keys with their texts."""
     return tuple(
         model.Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
-        for name, value in pairs
+        for name, value in entries
         if isinstance(value, Scalar)
     )
 
@@ -72,19 +78,17 @@ def variable(name: Scalar, value: Node) -> model.Variable:
     return model.Variable(name.lexeme, value.lexeme, span=name.span)
 
 
-def limits(node: Node | None) -> model.ResourceLimits | None:
-    """The key `limits`, None if it is not set."""
-    if node is None:
-        return None
+def limits(node: Node) -> model.ResourceLimits:
+    """The key `limits`."""
     cpu, core = text(node, "cpu"), text(node, "core")
     return model.ResourceLimits(
         _size(text(node, "memory")),
         int(cpu.rstrip(" %")) if cpu else None,
         text(node, "cores") or None,
-        _integer(node, "nice"),
-        _integer(node, "realtime"),
+        integer(node, "nice"),
+        integer(node, "realtime"),
         _CORES[core] if core in _CORES else _size(core),
-        _integer(node, "files"),
+        integer(node, "files"),
     )
 
 
@@ -94,8 +98,3 @@ def _size(spelled: str) -> int | None:
         return None
     number = spelled.rstrip("KMGiB ")
     return round(float(number) * _UNITS[spelled[len(number) :].strip()])
-
-
-def _integer(parent: Node, key: str) -> int | None:
-    node = parent.get(key)
-    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None

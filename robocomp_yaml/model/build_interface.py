@@ -53,6 +53,18 @@ def text(parent: Node | None, key: str, default: str = "") -> str:
     return child.lexeme if isinstance(child, Scalar) else default
 
 
+def integer(parent: Node | None, key: str) -> int | None:
+    """An integer. The schema also allows a float without a fraction, such as `3.0`."""
+    child = parent.get(key) if parent else None
+    return int(child.data) if isinstance(child, Scalar) and isinstance(child.data, (int, float)) else None
+
+
+def given(parent: Node, key: str, make: Callable[[Node], _Value]) -> _Value | None:
+    """What is made of the value of `key`; None if it is not set."""
+    child = parent.get(key)
+    return make(child) if child is not None else None
+
+
 def doc(node: Node | None) -> str:
     return text(node, "doc").strip()
 

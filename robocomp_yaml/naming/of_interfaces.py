@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.program import LinkedModule, Program
+from robocomp_yaml.link.program import LinkedModule, Program, interfaces_by_name
 from robocomp_yaml.model.interface import (
     Constant,
     Enum,
@@ -133,11 +133,7 @@ def _enumerator(names: Names, linked: LinkedModule, type_: TypeRef, literal: Lit
 
 
 def _script(names: Names, program: Program, tree: MappingNode) -> None:
-    known: dict[str, list[tuple[LinkedModule, Interface]]] = {}
-    for scope in program.modules.values():
-        for interface in scope.module.all_interfaces:
-            for name in (interface.name, f"{scope.module.name}.{interface.name}"):
-                known.setdefault(name, []).append((scope, interface))
+    known = interfaces_by_name(program.modules.values())
     for section in ("interfaces", "topics"):
         for key, node in _entries(tree.get(section)):
             found = known.get(key.lexeme, [])

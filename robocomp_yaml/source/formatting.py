@@ -42,6 +42,7 @@ from ruamel.yaml.tokens import (
     ValueToken,
 )
 
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -362,10 +363,7 @@ def _end_of_line(line: str) -> str:
 
 def _with_comments(lines: list[_Line]) -> Iterator[str]:
     """The lines with the comments behind them: those of one column before are in one column again."""
-    columns: dict[int, list[_Line]] = {}
-    for line in lines:
-        if line.comment:
-            columns.setdefault(line.column, []).append(line)
+    columns = grouped((line.column, line) for line in lines if line.comment)
     for together in columns.values():
         if len(together) > 1:
             to = max(len(line.text) for line in together) + min(line.gap for line in together)

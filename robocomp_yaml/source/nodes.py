@@ -212,6 +212,13 @@ def node_at(root: Node, steps: Iterable[str | int]) -> Node | None:
     return node
 
 
+def value_at(root: Node | None, *keys: str) -> Node | None:
+    """The value at these keys below a root; None if one is missing or null."""
+    for key in keys:
+        root = root.get(key) if root is not None else None
+    return root
+
+
 class Mark(msgspec.Struct, frozen=True):
     line: int
     column: int

@@ -15,6 +15,7 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.schema_text import schema_text
@@ -122,10 +123,7 @@ def _checked(names: list[str]) -> dict[str, Any]:
     """A subschema that rejects slips of these names, with the name that is meant."""
     known = set(names)
     slips = {name: sorted(set(_slips(name)) - known) for name in names}
-    meant: dict[str, list[str]] = {}
-    for name, wrong in slips.items():
-        for slip in wrong:
-            meant.setdefault(slip, []).append(name)
+    meant = grouped((slip, name) for name, wrong in slips.items() for slip in wrong)
     certain = {slip: names[0] for slip, names in meant.items() if len(names) == 1}
     if not certain:
         return {}

@@ -20,6 +20,7 @@ from ruamel.yaml.tag import Tag
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import Diagnosed
 from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import reachable
@@ -76,12 +77,8 @@ _MESSAGES = (
 _LONG = 20_000  # characters
 
 
-class SyntaxFault(Exception):
+class SyntaxFault(Diagnosed):
     """The text is not YAML."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
 
 
 class Rejected(Exception):

@@ -30,13 +30,14 @@ from robocomp_yaml.source.nodes import (
     scalar_at,
     sequence_at,
     text_at,
+    value_at,
     whole,
 )
 
 __all__ = [
     "Base", "Mapping", "Node", "Scalar", "Sequence", "below", "child", "core", "end_of", "found_in",
     "last_end", "mapping_at", "node_at", "not_plain", "once", "pairs_below", "parse", "part", "scalar_at",
-    "sequence_at", "text_at", "whole",
+    "sequence_at", "text_at", "value_at", "whole",
 ]  # fmt: skip
 
 

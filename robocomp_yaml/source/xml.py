@@ -15,6 +15,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import Diagnosed
 from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
@@ -68,18 +69,12 @@ class Element(msgspec.Struct):
         return self.places.get(name, self.span)
 
 
-class _XmlRefused(Exception):
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
-
-
 def parse(path: str, text: str) -> tuple[Element | None, list[Diagnostic]]:
     """The document's root; None, with diagnostics, if the text is not XML, or is beyond the limits."""
     reader = _XmlReader(path, text)
     try:
         reader.parser.Parse(reader.raw, True)
-    except _XmlRefused as refused:
+    except Diagnosed as refused:
         return None, [refused.diagnostic]
     except expat.ExpatError as error:
         line, column = error.lineno, error.offset + 1
@@ -112,7 +107,7 @@ class _XmlReader:
         """Rejects document types, the only place in which entities can be declared."""
         start = max(self.text.find(_DOCTYPE), 0)
         what = "a document type (<!DOCTYPE …>)"
-        raise _XmlRefused(codes.XML_REFUSED.at(self._span(start, start + len(_DOCTYPE)), what=what))
+        raise Diagnosed(codes.XML_REFUSED.at(self._span(start, start + len(_DOCTYPE)), what=what))
 
     def _start(self, full_name: str, attributes: dict[str, str]) -> None:
         self._count += 1
@@ -139,7 +134,7 @@ class _XmlReader:
         self._open.append(element)
 
     def _too_large(self, limit: str) -> NoReturn:
-        raise _XmlRefused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
+        raise Diagnosed(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
 
     def _end(self, _: str) -> None:
         here = self.parser.CurrentByteIndex  # for an empty element, the index after it

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import itertools
 import os
 import time
@@ -118,10 +117,7 @@ def locked(root: str) -> Iterator[None]:
 
 def _acquire(lock: int) -> bool:
     with contextlib.suppress(OSError):  # the file system has no locks: `verify` still detects changes
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
+        return whole_file.lock(lock)
     return True
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import fcntl
 import os
 import stat
 from collections.abc import Iterator
@@ -20,6 +21,15 @@ def ignore_all(folder: str, comment: str = "") -> None:
     """Makes git ignore all of a folder, unless it has a file that says otherwise. Raises OSError."""
     with contextlib.suppress(FileExistsError), open(f"{folder}/.gitignore", "x", encoding="utf-8") as file:
         file.write(f"{comment}*\n")
+
+
+def lock(opened: int) -> bool:
+    """Locks an open file or folder until it is closed. Returns False if another one has the lock. Raises OSError."""
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 def create(path: str | os.PathLike[str], text: str) -> None:

@@ -10,9 +10,8 @@ import msgspec
 from robocomp_yaml.diag.codes import calls as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.link.program import LinkedModule, interfaces_by_name
 from robocomp_yaml.model.duration import seconds
-from robocomp_yaml.model.interface import Interface
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.ice_texts import ENDPOINT, PROXY, of_text
 from robocomp_yaml.source.tree import Node, Scalar
@@ -64,11 +63,7 @@ class Reader:
 
     def __init__(self, modules: Iterable[LinkedModule], errors: Iterable[Diagnostic]) -> None:
         self._types, self._errors = Types(), tuple(errors)
-        self._known: dict[str, list[tuple[LinkedModule, Interface]]] = {}
-        for scope in modules:
-            for interface in scope.module.all_interfaces:
-                for name in (interface.name, f"{scope.module.name}.{interface.name}"):
-                    self._known.setdefault(name, []).append((scope, interface))
+        self._known = interfaces_by_name(modules)
 
     def of_names(self, names: Iterable[Scalar]) -> Script:
         """Stand-ins with example values for interfaces and topics that are named."""

@@ -12,7 +12,7 @@ from robocomp_yaml.api.completing.proposal import Proposal
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import Names
-from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.source.tree import Mapping, Scalar, value_at
 
 
 def proposals(path: str, place: TypedPlace, known: Names, program: Program | None) -> Iterator[Proposal]:
@@ -55,24 +55,19 @@ def _servers(
     required = user_component.requires if user_component is not None else ()
     interface = next((one.interface.name for one in required if one.name == port), "")
     for name in entries:
-        entry, component = _entry(place, name), _component(path, place, name, by_path)
-        endpoints = entry.get("endpoints") if entry is not None else None
+        component = _component(path, place, name, by_path)
+        endpoints = value_at(place.root, "components", name, "endpoints")
         served = [key.lexeme for key, _ in endpoints.items()] if isinstance(endpoints, Mapping) else []
         served += [one.interface.name for one in component.implements] if component is not None else []
-        is_known = component is not None or (entry is not None and entry.get("program") is not None)
+        is_known = component is not None or value_at(place.root, "components", name, "program") is not None
         if not is_known or (interface in served if interface else served):
             yield name
-
-
-def _entry(place: TypedPlace, name: str) -> Node | None:
-    components = place.root.get("components")
-    return components.get(name) if components is not None else None
 
 
 def _component(
     path: str, place: TypedPlace, entry: str, by_path: dict[str, LinkedComponent]
 ) -> LinkedComponent | None:  # fmt: skip
-    named = values.named_by(place, entry)
+    named = values.named_by(place, "components", entry)
     return by_path.get(values.document_at(path, named)) if named else None
 
 
@@ -119,9 +114,8 @@ def _of_groups(place: TypedPlace, program: Program | None) -> Iterator[Proposal]
     """Members and methods of what a group exposes."""
     match place.keys:
         case ("groups", group, "expose", _) | ("groups", group, "expose", _, "member") if not place.is_key:
-            groups = place.root.get("groups")
-            listed = groups.get(group) if groups is not None else None
-            yield from (Proposal(name, names.ENTRY) for name in items_of(listed, "components"))
+            listed = items_of(value_at(place.root, "groups", group), "components")
+            yield from (Proposal(name, names.ENTRY) for name in listed)
         case ("groups", _, "expose", interface, "allow", *_) if not place.is_key and program is not None:
             for scope in program.modules.values():
                 for one in scope.module.interfaces:

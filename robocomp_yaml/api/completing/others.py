@@ -8,7 +8,7 @@ from robocomp_yaml.api.completing.places import TypedPlace
 from robocomp_yaml.api.completing.proposal import CODE, Proposal
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.interface import Interface
+from robocomp_yaml.model.interface import Method
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import Names
 
@@ -24,10 +24,9 @@ def in_script(place: TypedPlace, known: Names, program: Program | None, present:
                 if one.name not in present:
                     yield Proposal(one.name, kind, one.says, one.doc, snippet=f"{one.name}: ")
         case ("interfaces", name, "methods") | ("topics", name, "messages", ""):
-            for interface in _called(program, name):
-                for method in interface.methods:
-                    if method.name not in present:
-                        yield Proposal(method.name, names.METHOD, "", method.doc, snippet=f"{method.name}: ")
+            for method in _methods(program, name):
+                if method.name not in present:
+                    yield Proposal(method.name, names.METHOD, "", method.doc, snippet=f"{method.name}: ")
         case ("interfaces", name, "methods", called, *_, "out"):
             yield from _arguments(program, name, called, present, is_out=True)
         case ("topics", name, "messages", "", called):
@@ -37,18 +36,18 @@ def in_script(place: TypedPlace, known: Names, program: Program | None, present:
 def _arguments(
     program: Program | None, name: str, called: str, present: list[str], *, is_out: bool
 ) -> Iterator[Proposal]:
-    for interface in _called(program, name):
-        for method in interface.methods:
-            for one in (method.outputs if is_out else method.inputs) if method.name == called else ():
-                if one.name not in present:
-                    yield Proposal(one.name, names.ARGUMENT, one.type.text, one.doc, snippet=f"{one.name}: ")
+    for method in _methods(program, name):
+        for one in (method.outputs if is_out else method.inputs) if method.name == called else ():
+            if one.name not in present:
+                yield Proposal(one.name, names.ARGUMENT, one.type.text, one.doc, snippet=f"{one.name}: ")
 
 
-def _called(program: Program | None, name: str) -> Iterator[Interface]:
+def _methods(program: Program | None, name: str) -> Iterator[Method]:
+    """The methods of the interfaces and topics with a name, which may be that in a module."""
     for scope in program.modules.values() if program is not None else ():
         for one in scope.module.all_interfaces:
             if name in (one.name, f"{scope.module.name}.{one.name}"):
-                yield one
+                yield from one.methods
 
 
 def in_settings(place: TypedPlace, present: list[str]) -> Iterator[Proposal]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.api.completing.places import TypedPlace
 from robocomp_yaml.api.completing.proposal import PATH, Proposal
-from robocomp_yaml.api.completing.values import parameters_for
+from robocomp_yaml.api.completing.values import named_by, parameters_for
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.source.disk import names_in
 
@@ -34,10 +34,8 @@ def paths(kind: str, path: str, place: TypedPlace, program: Program) -> Iterator
             )  # fmt: skip
             yield from _relative((one for one in documents if one != path), folder, "values")
         case "ddsl", ("components", entry, "config"):
-            components = place.root.get("components")
-            of_entry = components.get(entry) if components is not None else None
-            component = of_entry.get("component") if of_entry is not None else None
-            linked = parameters_for(program, path, str(component.data)) if component is not None else None
+            component = named_by(place, "components", entry)
+            linked = parameters_for(program, path, component) if component else None
             if linked is not None and linked.component is not None:
                 values = (one.document.path for one in program.values.values() if one.parameters is linked)
                 yield from _relative(values, os.path.dirname(linked.component.component.path), "values")

@@ -9,7 +9,7 @@ from itertools import chain
 import msgspec
 
 from robocomp_yaml.source.text import decode, encoded
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse, value_at
 
 MARK = "rcyaml0cursor"
 _WORD = r"(?:[\w./-]|(?<=[\w\]])\[\d+\])*"  # with paths of parameters (`joints[0].vel`)
@@ -166,5 +166,5 @@ def keys_of(root: Mapping, section: str) -> list[str]:
 
 def items_of(root: Node | None, section: str) -> list[str]:
     """The elements of a list that a node has."""
-    found = root.get(section) if root is not None else None
+    found = value_at(root, section)
     return [str(item.data) for item in found.items] if isinstance(found, Sequence) else []

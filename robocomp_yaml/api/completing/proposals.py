@@ -28,7 +28,7 @@ from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Scalar, Sequence, value_at
 from robocomp_yaml.source.yaml_text import flow
 
 _SUFFIX = ".idsl.yaml"
@@ -61,13 +61,13 @@ def proposals(
             found = chain(
                 _in_parameters(place, known),
                 constraints.proposals(path, place, known, program),
-                _component_paths(path, place, known, "component"),
+                _component_paths(path, place, known),
             )
         case "ddsl":
             found = deployments.proposals(path, place, known, program)
         case "config":
             found = chain(_in_values(path, place, program, with_schema=with_schema),
-                          _component_paths(path, place, known, "component"))  # fmt: skip
+                          _component_paths(path, place, known))  # fmt: skip
         case "mock":
             found = others.in_script(place, known, program, present)
         case "workspace":
@@ -110,10 +110,9 @@ def _of_schema(kind: str, place: TypedPlace) -> Iterator[Proposal]:
 
 def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_schema: bool) -> Iterator[Proposal]:
     """Values and, without a server of schemas, keys in a values document."""
-    component = place.root.get("component")
     if program is None or not with_schema:
         return
-    linked = values.parameters_for(program, path, str(component.data) if component is not None else "")
+    linked = values.parameters_for(program, path, values.named_by(place))
     if linked is None:
         return
     if place.keys[:1] == ("parameters",):
@@ -123,9 +122,9 @@ def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_sc
         yield from (Proposal(one, names.INTERFACE, what, snippet=f"{one}: ") for one in ports)
 
 
-def _component_paths(path: str, place: TypedPlace, known: Names, key: str) -> Iterator[Proposal]:
+def _component_paths(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
     """The documents of components, as `component:` of parameters and values names them."""
-    if place.keys == (key,) and not place.is_key:
+    if place.keys == ("component",) and not place.is_key:
         for one in known.of_kinds(names.COMPONENT):
             where = os.path.relpath(one.span.file, os.path.dirname(path))
             yield Proposal(where, names.COMPONENT, one.says, one.doc)
@@ -193,19 +192,15 @@ def _types(place: TypedPlace, known: Names, section: str) -> Iterator[Proposal]:
 
 def _enumerators(place: TypedPlace, known: Names) -> Iterator[Proposal]:
     """The enumerators of the type beside a default or a constant, and the values to which it is limited."""
-    node: Node | None = place.root
-    for key in place.keys[:-1]:
-        node = node.get(key) if node is not None else None
-    of = node.get("type") if node is not None else None
+    node = value_at(place.root, *place.keys[:-1])
+    of, limited = value_at(node, "type"), value_at(node, "values")
     stem, _, name = of.lexeme.rpartition(".") if isinstance(of, Scalar) else ("", "", "")
-    limited = node.get("values") if node is not None else None
     for each in limited.items if isinstance(limited, Sequence) else ():
         yield Proposal(flow(each.data), VALUE, "one of values")
     if name == "bool" and limited is None:
         yield from (Proposal(one, VALUE, "bool") for one in ("true", "false"))
-    types = place.root.get("types")
-    own = types.get(name) if types is not None and not stem else None
-    listed = own.get("enum") if own is not None else None
+    own = value_at(place.root, "types", name) if not stem else None
+    listed = value_at(own, "enum")
     found = [key.lexeme for key, _ in listed.items()] if isinstance(listed, Mapping) else items_of(own, "enum")
     yield from (Proposal(one, VALUE, f"enumerator of {name}") for one in found)
     for imported, one in _of_imported(place, known, names.ENUMERATOR):

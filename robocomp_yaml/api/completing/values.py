@@ -21,6 +21,7 @@ from robocomp_yaml.parameters.types import (
     is_secret,
 )
 from robocomp_yaml.parameters.words import for_editors, in_words, label
+from robocomp_yaml.source.tree import value_at
 from robocomp_yaml.source.yaml_text import flow
 
 
@@ -41,20 +42,17 @@ def parameters_at(
     """The parameters of which a document gives values at a place, and the keys below them; None at any other place."""
     match kind, place.keys:
         case "config", ("parameters", *steps):
-            component = place.root.get("component")
-            linked = parameters_for(program, path, str(component.data) if component is not None else "")
-        case "ddsl", ("components", entry, "set", *steps) if named := named_by(place, entry):
+            linked = parameters_for(program, path, named_by(place))
+        case "ddsl", ("components", entry, "set", *steps) if named := named_by(place, "components", entry):
             linked = parameters_for(program, path, named)
         case _:
             return None
     return (linked, tuple(steps)) if linked is not None else None
 
 
-def named_by(place: TypedPlace, entry: str) -> str:
-    """The path of an entry's component, as written; '' if it has none."""
-    components = place.root.get("components")
-    of_entry = components.get(entry) if components is not None else None
-    component = of_entry.get("component") if of_entry is not None else None
+def named_by(place: TypedPlace, *keys: str) -> str:
+    """The path of the component that a document, or the entry at these keys, names; '' if it has none."""
+    component = value_at(place.root, *keys, "component")
     return str(component.data) if component is not None else ""
 
 

@@ -45,9 +45,8 @@ def _(change: changes.NameTopic, entries: Entries) -> None:
 
 @make.register
 def _(change: changes.MoveEntry, entries: Entries) -> None:
-    known = entries.names(HOSTS)
-    if known and change.host not in known:
-        raise Refused(f"{entries.edited.path} has no host '{change.host}'{meant(change.host, known)}")
+    if entries.names(HOSTS):
+        entries.require(HOSTS, change.host)
     entries.edited.set([*entries.steps(change.entry), "host"], change.host)
 
 
@@ -75,8 +74,7 @@ def _(change: changes.AddHost, entries: Entries) -> None:
 
 @make.register
 def _(change: changes.RemoveHost, entries: Entries) -> None:
-    if change.name not in (known := entries.names(HOSTS)):
-        raise Refused(f"{entries.edited.path} has no host '{change.name}'{meant(change.name, known)}")
+    entries.require(HOSTS, change.name)
     entries.edited.remove([HOSTS, change.name], with_comments=True)
 
 
@@ -94,9 +92,8 @@ def _(change: changes.GroupEntries, entries: Entries) -> None:
 
 @make.register
 def _(change: changes.UngroupEntries, entries: Entries) -> None:
-    edited, known = entries.edited, entries.names(GROUPS)
-    if change.group not in known:
-        raise Refused(f"{edited.path} has no group '{change.group}'{meant(change.group, known)}")
+    edited = entries.edited
+    entries.require(GROUPS, change.group)
     if not change.members:
         _without_uses(entries, change.group)
         edited.remove([GROUPS, change.group], with_comments=True)

@@ -62,6 +62,11 @@ class Entries:
         if name in {*self.names(), *self.names(GROUPS), *self.names(SERVICES)}:
             raise Refused(f"{self.edited.path} has a '{name}' already")
 
+    def require(self, section: str, name: str) -> None:
+        """Raises Refused if a section has no such name."""
+        if name not in (known := self.names(section)):
+            raise Refused(f"{self.edited.path} has no {section[:-1]} '{name}'{meant(name, known)}")
+
     def component(self, name: str) -> LinkedComponent | None:
         return self.components.get(self.key(name))
 

@@ -13,9 +13,10 @@ from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.link.workspace import root_above
-from robocomp_yaml.model.component import LINK, LISTS, PIP, Component, Library
+from robocomp_yaml.model.component import LINK, LISTS, PIP, Component
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
@@ -116,10 +117,7 @@ def _topics(linked: LinkedComponent) -> Iterator[Diagnostic]:
 
 
 def _libraries(component: Component) -> Iterator[Diagnostic]:
-    by_entry: dict[int, list[Library]] = {}
-    for library in component.libraries:
-        by_entry.setdefault(library.entry, []).append(library)
-    for libraries in by_entry.values():
+    for libraries in grouped((library.entry, library) for library in component.libraries).values():
         if len(libraries) > 1:
             kinds = " and ".join(f"`{library.kind}`" for library in libraries)
             yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=kinds, hint="write two elements")

@@ -15,6 +15,7 @@ from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import reachable
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
 from robocomp_yaml.patterns import pattern
@@ -29,16 +30,13 @@ _FILE_NAME = pattern(r"\w[\w.+-]*\Z")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    importers: dict[Importer, list[Importer]] = defaultdict(list)
-    by_name: dict[str, list[LinkedModule]] = defaultdict(list)
-    by_file: dict[str, list[LinkedModule]] = defaultdict(list)
     everybody: list[Importer] = [*program.modules.values(), *program.components.values()]
-    for importer in everybody:
-        for imported in importer.imports:
-            importers[imported].append(importer)
-    for linked in sorted(program.modules.values(), key=lambda linked: linked.module.path):
-        by_name[linked.module.name.lower()].append(linked)
-        by_file[macro(linked.module.stem)].append(linked)
+    imports: list[tuple[Importer, Importer]] = [(imported, one) for one in everybody for imported in one.imports]
+    importers = grouped(imports)
+    modules = sorted(program.modules.values(), key=lambda linked: linked.module.path)
+    by_name = grouped((linked.module.name.lower(), linked) for linked in modules)
+    by_file = grouped((macro(linked.module.stem), linked) for linked in modules)
+    for linked in modules:
         if not _FILE_NAME.match(linked.module.stem):
             yield codes.FILE_NAME.at(
                 linked.module.span, name=linked.module.stem, hint="use letters, digits and underscores"

@@ -41,11 +41,7 @@ class SliceNameFault(msgspec.Struct, frozen=True):
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         part = "names of module", linked.module.path
-        yield from program.memory.result(part, (linked.module,), partial(_faults, linked.module))
-
-
-def _faults(module: Module) -> tuple[Diagnostic, ...]:
-    return tuple(_module(module))
+        yield from program.memory.listed(part, (linked.module,), partial(_module, linked.module))
 
 
 def _module(module: Module) -> Iterator[Diagnostic]:

@@ -4,6 +4,7 @@ values."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic
@@ -20,7 +21,7 @@ _NEAR = 0.8  # similarity of a name that is surely misspelled; another may be on
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
         part = "Ice properties", linked.document.path
-        yield from program.memory.result(part, (linked,), lambda: tuple(of_document(linked)))  # noqa: B023
+        yield from program.memory.listed(part, (linked,), partial(of_document, linked))
 
 
 def of_document(linked: LinkedValues) -> Iterator[Diagnostic]:

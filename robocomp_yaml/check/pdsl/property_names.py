@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 from robocomp_yaml.diag.codes import pdsl as codes
@@ -33,11 +33,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             taken = dict(_properties_of_ports(linked.component)) if linked.component else {}
             owner = linked.component.component.path if linked.component else ""
             part, causes = ("property names", linked.document.path, owner), (linked.parameters, *taken.items())
-            yield from program.memory.result(part, causes, partial(_faults, linked, taken))
-
-
-def _faults(linked: LinkedParameters, taken: Mapping[str, str]) -> Sequence[Diagnostic]:
-    return tuple(_property_names(linked, taken))
+            yield from program.memory.listed(part, causes, partial(_property_names, linked, taken))
 
 
 def _property_names(linked: LinkedParameters, taken: Mapping[str, str]) -> Iterator[Diagnostic]:

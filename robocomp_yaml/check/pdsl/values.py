@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from functools import partial
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
@@ -22,7 +23,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
         part = "values", linked.document.path
-        yield from program.memory.result(part, (linked,), lambda: tuple(check_document(linked, program)))  # noqa: B023
+        yield from program.memory.listed(part, (linked,), partial(check_document, linked, program))
 
 
 def check_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:

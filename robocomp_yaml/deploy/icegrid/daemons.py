@@ -7,7 +7,6 @@ the node already runs.
 
 from __future__ import annotations
 
-import fcntl
 import getpass
 import os
 import shlex
@@ -15,7 +14,6 @@ import signal
 import socket
 import subprocess
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import suppress
 
 import msgspec
 
@@ -29,6 +27,7 @@ from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import config_option, entry_line
+from robocomp_yaml.transactions import whole_file
 
 _BEGINS_WITHIN = 5.0  # seconds
 
@@ -51,11 +50,11 @@ def start_registry(files: GridFiles, registry: Registry) -> None:
 def succeed_guard(files: GridFiles) -> None:
     """Starts a successor of the registry's guard, if that was killed. Returns when it runs. Raises OSError."""
     own = files.registry_folder
-    pid = _pid(own, "pid")
+    pid = pid_in(own, "pid")
     if pid is not None and f"{own}/guard" not in procfs.command(pid):
         command = ["bash", f"{own}/guard", "--watch", "killed", *_registry_program(files)]
         start_detached(command, files.folder)
-        until(lambda: _pid(own, "pid") != pid, _BEGINS_WITHIN)
+        until(lambda: pid_in(own, "pid") != pid, _BEGINS_WITHIN)
 
 
 def _registry_program(files: GridFiles) -> list[str]:
@@ -97,17 +96,15 @@ def end_hung(folder: str) -> None:
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
     """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
-    pid = _pid(folder, file_name)
+    pid = pid_in(folder, file_name)
     if pid is not None and word in procfs.command(pid):
-        with suppress(OSError):
-            os.kill(pid, number)
+        procfs.send(pid, number)
 
 
-def _pid(folder: str, file_name: str) -> int | None:
+def pid_in(folder: str, file_name: str) -> int | None:
     """The pid in the file, None without one."""
     try:
-        with open(f"{folder}/{file_name}", encoding="ascii") as file:
-            return int(file.read())
+        return int(_text(f"{folder}/{file_name}"))
     except (OSError, ValueError):
         return None
 
@@ -180,9 +177,6 @@ def is_alive(folder: str) -> bool:
     except OSError:
         return False
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
+        return not whole_file.lock(lock)
     finally:
         os.close(lock)
-    return False

@@ -44,14 +44,11 @@ def begin(files: GridFiles, hosts: Sequence[str]) -> None:
 
 def stop(files: GridFiles) -> None:
     """Ends the process, if it runs."""
-    try:
-        with open(f"{files.folder}/{_FILE}", encoding="ascii") as file:
-            pid = int(file.read())
-    except (OSError, ValueError):
+    pid = daemons.pid_in(files.folder, _FILE)
+    if pid is None:
         return
     if pid != os.getpid() and [_MODULE, files.folder] == procfs.command(pid)[2:4]:
-        with suppress(OSError):
-            os.kill(pid, signal.SIGKILL)
+        procfs.send(pid, signal.SIGKILL)
         until(lambda: procfs.entry(pid) is None, _ENDS_WITHIN)
     own_folder.remove(files.folder, _FILE)
 

@@ -68,11 +68,7 @@ def is_running_without_files(files: GridFiles, network: Network) -> bool:
         return False
     reason = "processes of it run, and its files are damaged: `rcyaml deploy down` ends them"
     failed = codes.FOLDER.at(Span(network.path), path=shown_path(network.folder), reason=reason)
-
-    async def end() -> list[str]:
-        return await asyncio.to_thread(record.end_hung, network.folder)
-
-    raise EngineHangs(failed, end)
+    raise EngineHangs(failed, partial(asyncio.to_thread, record.end_hung, network.folder))
 
 
 def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
@@ -80,8 +76,7 @@ def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
     if there was something."""
     halted = procfs.halted(files.folder)
     for pid in halted:
-        with suppress(OSError):
-            os.kill(pid, signal.SIGCONT)
+        procfs.send(pid, signal.SIGCONT)
     return [codes.NOT_SUPERVISED.at(Span(network.path), what=HALTED)] if halted else []
 
 

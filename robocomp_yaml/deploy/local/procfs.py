@@ -8,10 +8,12 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
 from typing import NamedTuple
 
 from robocomp_yaml import secrets
 from robocomp_yaml.digraph import reachable
+from robocomp_yaml.grouping import grouped
 
 MARK = "RCYAML_PROCESS"
 """The variable in the environment of each process of a deployment, and of its descendants: `FOLDER:NAME`."""
@@ -136,9 +138,7 @@ class Families:
 
 def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]:
     """These processes and all their descendants."""
-    children: dict[int, list[int]] = {}
-    for one in alive.values():
-        children.setdefault(one.parent, []).append(one.pid)
+    children = grouped((one.parent, one.pid) for one in alive.values())
     return set(reachable(of, lambda pid: children.get(pid, ())))
 
 
@@ -168,6 +168,12 @@ def listeners(ports: Collection[int]) -> dict[int, list[int]]:
         for port in {inodes[link] for link in _open_files(pid) if link in inodes}:
             found[port].append(pid)
     return found
+
+
+def send(pid: int, number: int) -> None:
+    """Sends a signal to a process. One that has ended, or is not the user's, is ignored."""
+    with suppress(OSError):
+        os.kill(pid, number)
 
 
 def command(pid: int) -> list[str]:

@@ -57,8 +57,7 @@ def continue_halted(folder: str) -> bool:
     keeper = _keeper(folder)
     if keeper is None or not keeper.is_halted:
         return False
-    with contextlib.suppress(OSError):
-        os.kill(keeper.pid, signal.SIGCONT)
+    procfs.send(keeper.pid, signal.SIGCONT)
     return True
 
 
@@ -67,8 +66,7 @@ def end_hung(folder: str) -> list[str]:
     the names of the processes."""
     names = running(folder)
     if pid := supervisor(folder):
-        with contextlib.suppress(OSError):
-            os.kill(pid, signal.SIGKILL)
+        procfs.send(pid, signal.SIGKILL)
         until = time.monotonic() + _PATIENCE
         while _keeper(folder) and time.monotonic() < until:
             time.sleep(0.01)
@@ -93,8 +91,7 @@ def clear_up(folder: str) -> list[str]:
     until = time.monotonic() + _PATIENCE
     while (rest := [pid for pid in left if _runs(pid)]) and time.monotonic() < until:
         for pid in rest:
-            with contextlib.suppress(OSError):
-                os.kill(pid, signal.SIGKILL)
+            procfs.send(pid, signal.SIGKILL)
         time.sleep(0.01)
     return list(left.values())
 

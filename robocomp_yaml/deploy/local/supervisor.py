@@ -12,7 +12,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from contextlib import suppress
 
 from robocomp_yaml.deploy.local import kernel, procfs, record
 
@@ -28,18 +27,13 @@ def main() -> None:
         serve(folder)
         sys.exit(0)
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        signal.signal(number, lambda number, frame: _kill(supervisor, number))
+        signal.signal(number, lambda number, frame: procfs.send(supervisor, number))
     if len(sys.argv) > 2 and not kernel.signal_at_end_of(int(sys.argv[2]), signal.SIGTERM):
-        _kill(supervisor, signal.SIGTERM)
+        procfs.send(supervisor, signal.SIGTERM)
     status = _wait_for(supervisor)
     _end_all()
     if status == 0:
         record.remove(folder)
-
-
-def _kill(pid: int, number: int) -> None:
-    with suppress(OSError):
-        os.kill(pid, number)
 
 
 def _wait_for(supervisor: int) -> int:
@@ -47,7 +41,7 @@ def _wait_for(supervisor: int) -> int:
     while True:
         pid, status = os.waitpid(-1, os.WUNTRACED)
         if pid == supervisor and os.WIFSTOPPED(status):
-            _kill(pid, signal.SIGCONT)
+            procfs.send(pid, signal.SIGCONT)
         elif pid == supervisor:
             return status
 
@@ -56,7 +50,7 @@ def _end_all() -> None:
     """Kills all descendants of this process, until none is left: children of a killed process become its own."""
     while True:
         for pid in procfs.descendants([os.getpid()], procfs.table()) - {os.getpid()}:
-            _kill(pid, signal.SIGKILL)
+            procfs.send(pid, signal.SIGKILL)
         try:
             os.wait()
         except ChildProcessError:

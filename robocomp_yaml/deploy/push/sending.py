@@ -13,6 +13,7 @@ from robocomp_yaml.deploy.push import host_files
 from robocomp_yaml.deploy.push.host_files import PushedFile
 from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.deploy.ssh import CLIENT, HostFailed, login
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.network.network import NetworkHost
 
 _PARTIAL = ".rcyaml-partial"
@@ -39,9 +40,7 @@ def carry_out(push: HostPush, report: Sent) -> None:
 
 
 def _send(push: HostPush, paths: Iterable[str], backup: str, report: Sent) -> None:
-    by_base: dict[str, list[str]] = {}
-    for path in paths:
-        by_base.setdefault(_base(push.host, push.send[path]), []).append(path)
+    by_base = grouped((_base(push.host, push.send[path]), path) for path in paths)
     for base, chosen in by_base.items():
         local = base or "/"
         target = push.host.there(base) if base else "/"

@@ -19,7 +19,7 @@ from robocomp_yaml.source import rcremote
 from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.source.rcremote import ENDPOINT, facts_of_endpoint, filled
 
-_ATTRIBUTES = {
+ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
     "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
 }  # fmt: skip
@@ -223,8 +223,8 @@ class _Exporter:
 
 def _node(alias: str, endpoint: str, dependences: Sequence[str], kept: Kept) -> Iterator[str]:
     inside = [line for other in dependences for line in element("dependence", {"alias": other})]
-    rest = {key: value for key, value in kept.items() if key not in (*_ATTRIBUTES, *_OWN)}
-    for name, attribute in _ATTRIBUTES.items():
+    rest = {key: value for key, value in kept.items() if key not in (*ATTRIBUTES, *_OWN)}
+    for name, attribute in ATTRIBUTES.items():
         value = kept.get(name)
         if isinstance(value, str):
             inside += element(name, {attribute: value})

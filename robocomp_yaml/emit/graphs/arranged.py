@@ -14,6 +14,7 @@ import msgspec
 from robocomp_yaml.emit.graphs.grid import Area, NodeGrid
 from robocomp_yaml.emit.graphs.packing import SHAPES, WIDER, Item, Spot, packed, score
 from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureNode
+from robocomp_yaml.grouping import grouped
 
 Frame = tuple[str, str]
 """A host and a group of it; '' for what is in none."""
@@ -96,11 +97,10 @@ class _Packing(msgspec.Struct):
         item_of = {name: item for item, found in within.items() for name in found}
         items = [Item(item, max(x for x, _ in found.values()) + 1, max(y for _, y in found.values()) + 1)
                  for item, found in within.items()]  # fmt: skip
-        links: dict[str, list[str]] = {}
-        for name, item in item_of.items():
-            for other in self.needs.get(name, ()):
-                if item_of.get(other, item) != item:
-                    links.setdefault(item, []).append(item_of[other])
+        links = grouped(
+            (item, item_of[other]) for name, item in item_of.items() for other in self.needs.get(name, ())
+            if item_of.get(other, item) != item
+        )  # fmt: skip
         is_all = len(item_of) == len(self.picture.nodes)
         effort = len(items) / len(self.picture.nodes)
         made = packed(items, links, _LEAST if is_all else _LEAST_INSIDE, SHAPES if is_all else self.shapes, effort,
@@ -192,10 +192,7 @@ class _Adding:
 
     def __init__(self, picture: Picture, cells: dict[str, Cell], needs: Mapping[str, Sequence[str]]) -> None:
         self.picture, self.cells, self.needs = picture, cells, needs
-        self.users: dict[str, list[str]] = {}
-        for name, others in needs.items():
-            for other in others:
-                self.users.setdefault(other, []).append(name)
+        self.users = grouped((other, name) for name, others in needs.items() for other in others)
 
     def add(self) -> None:
         for name, node in self.picture.nodes.items():
@@ -256,14 +253,9 @@ def _placed(picture: Picture, cells: Mapping[str, Cell]) -> Arranged:
     columns = {slot: at for at, slot in enumerate(sorted({cell.slot for cell in cells.values()}))}
     grid = NodeGrid({name: (rows[cell.layer], columns[cell.slot]) for name, cell in cells.items()},
                     rows=len(rows), columns=len(columns))  # fmt: skip
-    hosts: dict[str, list[tuple[int, int]]] = {}
-    groups: dict[Frame, list[tuple[int, int]]] = {}
-    for name, node in picture.nodes.items():
-        frame = _frame(node)
-        if frame[0]:
-            hosts.setdefault(frame[0], []).append(grid.cells[name])
-        if frame[1]:
-            groups.setdefault(frame, []).append(grid.cells[name])
+    framed = [(_frame(node), grid.cells[name]) for name, node in picture.nodes.items()]
+    hosts = grouped((frame[0], cell) for frame, cell in framed if frame[0])
+    groups = grouped((frame, cell) for frame, cell in framed if frame[1])
     grid.areas = [_area(host, own) for host, own in hosts.items()]
     return Arranged(grid, [(host, _area(group, own)) for (host, group), own in groups.items()], dict(cells))
 

@@ -14,6 +14,7 @@ from robocomp_yaml.emit.graphs.grid import Area, NodeGrid, grid_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, Routes, outgoing, routes_of
+from robocomp_yaml.grouping import grouped
 
 TITLE, SMALL, LABEL = 13.0, 11.0, 10.0
 """Font sizes."""
@@ -85,9 +86,7 @@ class _Placer:
     def __init__(self, picture: Picture, grid: NodeGrid, routes: Routes) -> None:
         self.picture, self.grid, self.routes = picture, grid, routes
         self.made = Geometry()
-        self.incoming: dict[str, list[Net]] = {}
-        for net in routes.nets:
-            self.incoming.setdefault(net.target, []).append(net)
+        self.incoming = grouped((net.target, net) for net in routes.nets)
         self.leaving = outgoing(routes.nets)
         self.edges = {area.left for area in grid.areas} | {area.right + 1 for area in grid.areas}
         self.tops = {area.top for area in grid.areas}
@@ -100,7 +99,7 @@ class _Placer:
         self.measure()
         for name, block in self.made.nodes.items():
             row, column = self.grid.cells[name]
-            block.x = _even(self.columns[column] + (self.column_width[column] - block.width) / 2)
+            block.x = even(self.columns[column] + (self.column_width[column] - block.width) / 2)
             block.y = self.rows[row]
         for area in self.grid.areas:
             if area.name:
@@ -115,7 +114,7 @@ class _Placer:
         ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single net ends in the middle
         exits = STEP * (len(self.leaving.get(node.name, ())) + 1)
         size = max(widest + 2 * _PAD, ports + _PAD, exits, 90.0)
-        return Rectangle(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
+        return Rectangle(0, 0, even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
 
     def measure(self) -> None:
         """Computes where rows and columns begin, behind channels and gaps that have room for their tracks."""
@@ -178,7 +177,7 @@ class _Placer:
             block = self.made.nodes[name]
             x = block.x + (block.width - sum(map(_slot, nets))) / 2 if len(nets) > 1 else block.middle - STEP
             for net in sorted(nets, key=self.origin):
-                points[net] = (_even(x + STEP), block.y)
+                points[net] = (even(x + STEP), block.y)
                 x += _slot(net)
         return points
 
@@ -192,7 +191,7 @@ class _Placer:
         points: dict[NetBranch, Point] = {}
         for name, nets in self.leaving.items():
             block = self.made.nodes[name]
-            x = _even(block.middle - STEP * (len(nets) - 1) / 2) + STEP / 2
+            x = even(block.middle - STEP * (len(nets) - 1) / 2) + STEP / 2
             for net in sorted(nets, key=lambda net: ports[net][0]):
                 branch = next(branch for branch in net.branches if branch.source == name and branch not in points)
                 port = ports[net][0]
@@ -217,6 +216,6 @@ def _slot(net: Net) -> float:
     return STEP * 2 + (width(net.label, LABEL) if net.label else 0.0)
 
 
-def _even(x: float) -> float:
+def even(x: float) -> float:
     """The multiple of STEP closest to x."""
     return STEP * round(x / STEP)

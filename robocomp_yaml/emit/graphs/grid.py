@@ -13,6 +13,7 @@ import msgspec
 
 from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.graphs.picture import Picture
+from robocomp_yaml.grouping import grouped
 
 MOST_COLUMNS = 12
 _SWEEPS = 4
@@ -93,13 +94,9 @@ def _add_band(
 
 def _order(picture: Picture, grid: NodeGrid) -> None:
     """Moves nodes within their rows, so that they are close to the nodes that they are connected to."""
-    near: dict[str, list[str]] = {}
-    for line in picture.lines:
-        near.setdefault(line.source, []).append(line.target)
-        near.setdefault(line.target, []).append(line.source)
-    rows: dict[tuple[int, str], list[str]] = {}
-    for name, (row, _) in grid.cells.items():
-        rows.setdefault((row, picture.nodes[name].box), []).append(name)
+    ends = [(line.source, line.target) for line in picture.lines]
+    near = grouped(pair for one, other in ends for pair in ((one, other), (other, one)))
+    rows = grouped(((row, picture.nodes[name].box), name) for name, (row, _) in grid.cells.items())
     ordered = [rows[key] for key in sorted(rows)]
     for sweep in range(_SWEEPS):
         for members in ordered if sweep % 2 == 0 else reversed(ordered):
@@ -120,10 +117,7 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
     names = list(nodes)
     depth = _depths(names, needs)
     height = max(depth.values(), default=0)
-    users: dict[str, list[str]] = {}
-    for name in names:
-        for other in needs.get(name, ()):
-            users.setdefault(other, []).append(name)
+    users = grouped((other, name) for name in names for other in needs.get(name, ()))
     layer = {name: height - depth[name] for name in names}
     for name in sorted(names, key=lambda name: layer[name]):
         below = [layer[user] for user in users.get(name, ()) if layer[user] < layer[name]]

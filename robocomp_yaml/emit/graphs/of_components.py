@@ -8,6 +8,7 @@ from robocomp_yaml.addresses.interface_comparison import Implementers
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.picture import Picture, PictureFault, PictureLine, PictureNode
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.link.program import LinkedComponent, Port
 
 
@@ -17,9 +18,7 @@ def picture_of(
     """The picture of these components, with the diagnostics of their documents. Topics are outside, and so are
     interfaces that no component implements."""
     made = Picture(name)
-    faults: dict[str, list[PictureFault]] = {}
-    for one in diagnostics:
-        faults.setdefault(one.span.file, []).append(PictureFault(one.code, one.severity == ERROR, one.message))
+    faults = grouped((one.span.file, PictureFault(one.code, one.severity == ERROR, one.message)) for one in diagnostics)
     listed = list(components)
     implementers = Implementers()
     names: dict[LinkedComponent, str] = {}

@@ -10,6 +10,7 @@ from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.picture import Box, Picture, PictureFault, PictureLine, PictureNode
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.network.network import LOOPBACK, PROXY, Connection, Network, Process
 
 
@@ -92,9 +93,7 @@ class _Faults:
         self.of_process: dict[str, list[PictureFault]] = {}
         self.of_connection: dict[int, list[PictureFault]] = {}
         self.rest: list[PictureFault] = []
-        self._starts: dict[str, list[tuple[int, str]]] = {}
-        for process in network.processes.values():
-            self._starts.setdefault(process.span.file, []).append((process.span.line, process.name))
+        self._starts = grouped((one.span.file, (one.span.line, one.name)) for one in network.processes.values())
         for starts in self._starts.values():
             starts.sort()
         lines = {(c.span.file, c.span.line, c.span.column): n for n, c in enumerate(network.connections) if c.span.file}

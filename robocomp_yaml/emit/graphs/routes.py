@@ -13,6 +13,7 @@ import msgspec
 
 from robocomp_yaml.emit.graphs.grid import NodeGrid
 from robocomp_yaml.emit.graphs.picture import Picture, PictureFault
+from robocomp_yaml.grouping import grouped
 
 
 class NetBranch(msgspec.Struct, eq=False):
@@ -101,8 +102,4 @@ def _tracks(runs: dict[int, dict[Net, list[float]]]) -> tuple[dict[Run, int], di
 
 def outgoing(nets: Iterable[Net]) -> dict[str, list[Net]]:
     """The nets that leave each node."""
-    by_source: dict[str, list[Net]] = {}
-    for net in nets:
-        for branch in net.branches:
-            by_source.setdefault(branch.source, []).append(net)
-    return by_source
+    return grouped((branch.source, net) for net in nets for branch in net.branches)

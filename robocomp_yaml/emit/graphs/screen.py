@@ -13,12 +13,13 @@ from itertools import accumulate, pairwise
 import msgspec
 
 from robocomp_yaml.emit.graphs.arranged import Arranged, arrange
-from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rectangle, texts_of
+from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rectangle, even, texts_of
 from robocomp_yaml.emit.graphs.grid import Area
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.packing import WIDER
 from robocomp_yaml.emit.graphs.picture import TOPIC, Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
+from robocomp_yaml.grouping import grouped
 
 SMALL_ON_SCREEN = 12.0
 """The size of all texts but the titles of nodes."""
@@ -161,7 +162,7 @@ class _ScreenPlacer:
         sign = _RATE if node.kind == TOPIC else _SIGN
         widest = max([width(texts[0], TITLE, bold=True) + sign, *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
         lines = max(len(texts), self.coming.get(node.name, 0), (self.leaving.get(node.name, 0) + 1) // 2)
-        return Rectangle(0, 0, max(_even(widest + 2 * _NODE_PAD), _NARROWEST), LINE_HEIGHT * lines + STEP, texts)
+        return Rectangle(0, 0, max(even(widest + 2 * _NODE_PAD), _NARROWEST), LINE_HEIGHT * lines + STEP, texts)
 
     def _measure(self) -> None:
         """Computes where layers and slots begin, behind channels and gaps that have room for their tracks."""
@@ -233,15 +234,12 @@ class _ScreenPlacer:
     def _exits(self) -> dict[NetBranch, Point]:
         """The point at which each branch begins, on the right side of its source. A branch that goes straight begins
         beside its port."""
-        leaving: dict[str, list[tuple[Net, NetBranch]]] = {}
-        for net in self.routes.nets:
-            for branch in net.branches:
-                leaving.setdefault(branch.source, []).append((net, branch))
+        leaving = grouped((branch.source, (net, branch)) for net in self.routes.nets for branch in net.branches)
         points: dict[NetBranch, Point] = {}
         for name, branches in leaving.items():
             block = self.made.nodes[name]
             branches.sort(key=lambda one: self._port(one[0]))
-            y = block.y + _even((block.height - STEP * (len(branches) - 1)) / 2)
+            y = block.y + even((block.height - STEP * (len(branches) - 1)) / 2)
             for at, (_, branch) in enumerate(branches):
                 points[branch] = (block.x + block.width, y + STEP * at)
         return points
@@ -266,8 +264,3 @@ def _key(line: PictureLine) -> tuple[str, str, str, str]:
 
 def _without_repeats(points: list[Point]) -> list[Point]:
     return [point for at, point in enumerate(points) if not at or point != points[at - 1]]
-
-
-def _even(x: float) -> float:
-    """The multiple of STEP closest to x."""
-    return STEP * round(x / STEP)

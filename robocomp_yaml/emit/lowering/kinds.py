@@ -13,10 +13,10 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    RecordType,
     ResolvedMember,
     Size,
     Type,
+    nested,
 )
 
 if TYPE_CHECKING:
@@ -100,12 +100,4 @@ def _size(size: Size) -> str:
 
 def pattern_count(type_: Type) -> int:
     """The number of patterns in a type."""
-    match type_:
-        case BasicType(pattern=pattern):
-            return int(pattern is not None)
-        case ListType(element=element) | MapType(element=element):
-            return pattern_count(element)
-        case RecordType(members=members):
-            return sum(pattern_count(member.type) for member in members)
-        case _:
-            return 0
+    return sum(isinstance(one, BasicType) and one.pattern is not None for one in nested(type_))

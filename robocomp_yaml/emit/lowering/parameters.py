@@ -41,14 +41,6 @@ class TypeSpelling(msgspec.Struct, frozen=True):
     path: str = "{}"
 
 
-class ConstraintView(msgspec.Struct, frozen=True):
-    """A constraint: its text in the document, the message if it does not hold, and the code that checks it."""
-
-    text: str
-    otherwise: str
-    value: str
-
-
 class Types:
     """The classes of all enums and records of parameters: `of` maps the name, or the path of a group, to the class."""
 

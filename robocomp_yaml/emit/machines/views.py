@@ -4,16 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import msgspec
-
 from robocomp_yaml.emit.render import View
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import StateMachine
-
-
-class EventView(msgspec.Struct, frozen=True):
-    name: str
-    method: str
 
 
 def view(machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str) -> View:
@@ -38,6 +31,6 @@ def view(machine: StateMachine, in_code: Callable[[str], str], comment: Callable
     )
 
 
-def events(machine: StateMachine, in_code: Callable[[str], str]) -> list[EventView]:
+def events(machine: StateMachine, in_code: Callable[[str], str]) -> list[View]:
     """The events of a machine, with the names of their methods."""
-    return [EventView(event.text.text, in_code(event.name)) for event in names.events(machine)]
+    return [View(name=event.text.text, method=in_code(event.name)) for event in names.events(machine)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
+from functools import cache
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -11,7 +12,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import preorder
 
 if TYPE_CHECKING:
-    from tree_sitter import Node
+    from tree_sitter import Node, Parser
 
 CLASS = "SpecificWorker"
 
@@ -78,6 +79,14 @@ class SourceCode(msgspec.Struct, frozen=True):
     def text_of(self, method: SourceMethod) -> str:
         """The lines of a method."""
         return "".join(self.lines[method.first : method.end])
+
+
+@cache
+def parser(language: Callable[[], object]) -> Parser:
+    """The parser of a language, by the function of its grammar's package."""
+    from tree_sitter import Language, Parser  # of what a component without code does not need
+
+    return Parser(Language(language()))
 
 
 def lines_of(text: str) -> list[str]:

@@ -10,6 +10,7 @@ import msgspec
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.emit.specific.code import Signature, SourceCode, SourceMethod
 from robocomp_yaml.emit.specific.types import Differ
+from robocomp_yaml.grouping import grouped
 
 
 class MissingMethod(msgspec.Struct, frozen=True):
@@ -104,11 +105,7 @@ def behind_errors(yours: Iterable[SourceCode]) -> set[str]:
 
 
 def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[SourceCode, SourceMethod]]]:
-    by_name: dict[str, list[tuple[SourceCode, SourceMethod]]] = {}
-    for code in codes:
-        for method in getattr(code, part):
-            by_name.setdefault(method.name, []).append((code, method))
-    return by_name
+    return grouped((method.name, (code, method)) for code in codes for method in getattr(code, part))
 
 
 def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Collection[str]) -> set[str]:

@@ -128,52 +128,47 @@ def plain(name: str, natives: Natives) -> Offer:
     return Offer(PLAIN, name, natives.get(name, {}), is_complete=name in natives)
 
 
-def proxies(
-    ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
-    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
-    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
-) -> dict[str, OfferedMember]:  # fmt: skip
-    """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy; `of_ice` are known ones of these, and whether they return a proxy like it. `future`
-    makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have
-    a context."""
-    found = {}
-    for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
-        made = proxy(
-            accessor.port.interface, accessor.port.scope, called, others, returned, outputs=outputs, keywords=keywords,
-            future=future, of_ice=of_ice,
+class OfferedProxies(msgspec.Struct, frozen=True):
+    """How a language offers proxies. `called` makes the name of an operation, and `returned` what a call returns;
+    `others` are methods of every proxy; `of_ice` are known ones of these, and whether they return a proxy like it.
+    `future` makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have
+    a context, and those by keyword have the `keywords`."""
+
+    called: Callable[[str], str]
+    others: Callable[[str], bool]
+    returned: Returned
+    outputs: bool = False
+    keywords: Callable[[Method], Iterable[str]] | None = None
+    future: Callable[[Offer | None], Offer] | None = None
+    of_ice: Mapping[str, bool] = {}
+
+    def every(self, ports: LoweredPorts) -> dict[str, OfferedMember]:
+        """The proxies of the worker."""
+        found = {}
+        for one, kind in [*((one, PROXY) for one in ports.requires), *((one, TOPIC) for one in ports.publishes)]:
+            made = self.of(one.port.interface, one.port.scope)
+            found[one.name] = OfferedMember(structs.replace(made, kind=kind))
+        return found
+
+    def of(self, interface: Interface, scope: LinkedModule) -> Offer:
+        """A proxy of an interface."""
+        methods: dict[str, OfferedMember] = {}
+        for method in interface.methods:
+            name, result = self.called(method.name), self.returned(method, scope)
+            methods[name] = structs.replace(self._operation(method), result=result)
+            later = structs.replace(methods[name], result=self.future(result)) if self.future else OfferedMember()
+            methods.setdefault(f"{name}{ASYNC}", later)
+        made = Offer(TOPIC if interface.is_topic else PROXY, interface.name, methods, others=self.others)
+        methods |= {name: OfferedMember(result=made if is_same else None) for name, is_same in self.of_ice.items()}
+        return made
+
+    def _operation(self, method: Method) -> OfferedMember:
+        members = [*method.inputs, *(method.outputs if self.outputs else ())]
+        return OfferedMember(
+            least=len(members), most=len(members) + 1, inputs=method.inputs,
+            keywords=frozenset(("context", *self.keywords(method))) if self.keywords else None,
+            signature=f"{self.called(method.name)}({', '.join(f'{one.name}: {one.type.text}' for one in members)})",
         )  # fmt: skip
-        found[accessor.name] = OfferedMember(structs.replace(made, kind=TOPIC if is_topic else PROXY))
-    return found
-
-
-def proxy(
-    interface: Interface, scope: LinkedModule, called: Callable[[str], str], others: Callable[[str], bool],
-    returned: Returned, *, outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
-    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
-) -> Offer:  # fmt: skip
-    """A proxy of an interface, as `proxies` makes them."""
-    methods: dict[str, OfferedMember] = {}
-    for method in interface.methods:
-        name, result = called(method.name), returned(method, scope)
-        methods[name] = structs.replace(_operation(method, called, outputs, keywords), result=result)
-        later = OfferedMember() if future is None else structs.replace(methods[name], result=future(result))
-        methods.setdefault(f"{name}{ASYNC}", later)
-    made = Offer(TOPIC if interface.is_topic else PROXY, interface.name, methods, others=others)
-    methods |= {name: OfferedMember(result=made if is_same else None) for name, is_same in of_ice.items()}
-    return made
-
-
-def _operation(
-    method: Method, called: Callable[[str], str], outputs: bool,
-    keywords: Callable[[Method], Iterable[str]] | None,
-) -> OfferedMember:  # fmt: skip
-    members = [*method.inputs, *(method.outputs if outputs else ())]
-    return OfferedMember(
-        least=len(members), most=len(members) + 1, inputs=method.inputs,
-        keywords=frozenset(("context", *keywords(method))) if keywords else None,
-        signature=f"{called(method.name)}({', '.join(f'{one.name}: {one.type.text}' for one in members)})",
-    )  # fmt: skip
 
 
 def answering(ports: LoweredPorts, *, outputs: bool = True) -> dict[str, tuple[tuple[str, Kind | None], ...]]:
@@ -293,7 +288,7 @@ def states(machine: StateMachine) -> tuple[str, ...]:
 def modules(
     linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
     others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None], *,
-    classes: bool = False, prx: Callable[[Interface, LinkedModule], Offer] | None = None,
+    classes: bool = False, prx: OfferedProxies | None = None,
 ) -> Offer:  # fmt: skip
     """The Slice modules with their types, as attributes. Two documents may define parts of one module. `instance` makes
     what a value of a type has, and `prx` what a proxy has. With `classes`, exceptions are made like structs, and nobody
@@ -315,7 +310,7 @@ def _is_internal(name: str) -> bool:
 
 def _types(
     scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None],
-    classes: bool, prx: Callable[[Interface, LinkedModule], Offer] | None,
+    classes: bool, prx: OfferedProxies | None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     found = {}
     for definition in scope.module.definitions:
@@ -338,7 +333,7 @@ def _types(
                 )  # fmt: skip
             case Interface():
                 found[name] = OfferedMember(instance=NOTHING)
-                made = prx(definition, scope) if prx is not None else None
+                made = prx.of(definition, scope) if prx is not None else None
                 cast = OfferedMember(result=made)
                 casts = Offer(OTHER, name, {"checkedCast": cast, "uncheckedCast": cast}, is_complete=False)
                 found[f"{definition.name}Prx"] = OfferedMember(casts if made is not None else None, instance=made)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.grouping import grouped
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.model.interface import Interface, Method
@@ -14,12 +15,8 @@ from robocomp_yaml.model.interface import Interface, Method
 
 def users(program: Program, language: TargetLanguage) -> Mapping[LinkedModule, list[LinkedComponent]]:
     """The components in a language, by each module that they need; an empty list for every other module."""
-    found: dict[LinkedModule, list[LinkedComponent]] = defaultdict(list)
-    for component in program.components.values():
-        if component.component.language.target is language:
-            for scope in component.modules():
-                found[scope].append(component)
-    return found
+    own = [one for one in program.components.values() if one.component.language.target is language]
+    return defaultdict(list, grouped((scope, one) for one in own for scope in one.modules()))
 
 
 def needed_by(user: LinkedComponent) -> Related:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 import msgspec
@@ -72,6 +72,21 @@ class UsageFile:
         word = self._inner(first) if first is not None and isinstance(first.value, str) else None
         constant = last if last is not None and (word is None or len(nodes) > 1) else None
         return Arguments(len(nodes), (), is_exact, word, keys, constant, tuple(map(self._literal, nodes)))
+
+
+def workers_of(classes: Iterable[tuple[str, list[str]]]) -> set[str]:
+    """The classes, each given with its bases, that are derived from the generic worker and from nothing else, also by
+    other classes of the code."""
+    bases_of = dict(classes)
+    return {name for name in bases_of if _is_worker(name, bases_of)}
+
+
+def _is_worker(name: str, bases_of: Mapping[str, list[str]]) -> bool:
+    bases, seen = bases_of[name], {name}
+    while len(bases) == 1 and bases[0] in bases_of and bases[0] not in seen:
+        seen.add(bases[0])
+        bases = bases_of[bases[0]]
+    return bases == ["GenericWorker"]
 
 
 def unused(methods: Sequence[Word], sources: Iterable[str], pattern: re.Pattern[str]) -> tuple[Word, ...]:

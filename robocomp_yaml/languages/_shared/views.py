@@ -3,45 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Generic, TypeVar
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.parameters import ConstraintView
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
-Accessor = TypeVar("Accessor")
-Service = TypeVar("Service")
 
+class PortViews(msgspec.Struct, frozen=True):
+    """All ports of a component, as views of its language: `accessors` are the proxies of the worker, `services` the
+    implemented and subscribed ports."""
 
-class PortViews(msgspec.Struct, Generic[Accessor, Service], frozen=True):
-    """All ports of a component, as views of its language."""
-
-    requires: list[Accessor]
-    publishes: list[Accessor]
-    implements: list[Service]
-    subscribes: list[Service]
+    requires: list[View]
+    publishes: list[View]
+    implements: list[View]
+    subscribes: list[View]
 
     @property
-    def accessors(self) -> list[Accessor]:
+    def accessors(self) -> list[View]:
         return [*self.requires, *self.publishes]
 
     @property
-    def services(self) -> list[Service]:
+    def services(self) -> list[View]:
         return [*self.implements, *self.subscribes]
 
 
-def constraint_views(
-    parameters: Parameters, language: TargetLanguage, literal: Callable[[str], str]
-) -> list[ConstraintView]:
-    """The constraints of parameters as code; `literal` makes one of a text."""
+def constraint_views(parameters: Parameters, language: TargetLanguage, literal: Callable[[str], str]) -> list[View]:
+    """The constraints of parameters: each with its text, the message if it does not hold, and the code that checks it.
+    `literal` makes a literal of a text."""
     if not parameters.constraints:  # most components have none, and need nothing of expressions
         return []
     lambda_of = language.part("constraints").lambda_of
     return [
-        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
+        View(
+            text=literal(each.text), otherwise=literal(each.message), value=lambda_of(each.expression, parameters.root)
+        )
         for each in parameters.constraints
     ]
 

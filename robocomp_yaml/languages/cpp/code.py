@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cache
 
 import tree_sitter_cpp
 from msgspec.structs import replace
-from tree_sitter import Language, Node, Parser, Tree
+from tree_sitter import Node, Tree
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
@@ -21,6 +20,7 @@ from robocomp_yaml.emit.specific.code import (
     field,
     lines_of,
     location,
+    parser,
     plain,
     text,
     words,
@@ -32,14 +32,9 @@ _PARAMETERS = ("parameter_declaration", "optional_parameter_declaration")
 _QT = re.compile(rb"\bQ_OBJECT\b|\bQ_SLOTS\b|(?<=[a-z])(\s+)slots\b(?=\s*:)|\bsignals\b(?=\s*:)|\bQ_SIGNALS\b(?=\s*:)")
 
 
-@cache
-def _parser() -> Parser:
-    return Parser(Language(tree_sitter_cpp.language()))
-
-
 def parse(source: str) -> Tree:
     """The syntax tree of a file, at the same positions."""
-    return _parser().parse(_QT.sub(_replacement, source.encode()))
+    return parser(tree_sitter_cpp.language).parse(_QT.sub(_replacement, source.encode()))
 
 
 def read(path: str, source: str) -> SourceCode:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import msgspec
-
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     Accessors,
@@ -19,7 +17,7 @@ from robocomp_yaml.emit.lowering.parameters import (
     path_of,
     titled,
 )
-from robocomp_yaml.emit.render import View, render
+from robocomp_yaml.emit.render import View, changed, render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.cpp import LANGUAGE
@@ -68,7 +66,7 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
             for each in parameters.spellings
         ],
         constraints=[
-            msgspec.structs.replace(each, value=folded(f"{each.value},", 4 * IN))
+            changed(each, value=folded(f"{each.value},", 4 * IN))
             for each in constraint_views(parameters, LANGUAGE, literal)
         ],
     )

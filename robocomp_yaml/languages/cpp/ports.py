@@ -5,11 +5,10 @@ Templates show these views unchanged.
 
 from __future__ import annotations
 
-import msgspec
-
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import scoped
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.cpp.names import PORTS, ice_name, names, parameter, proxy, qualified
@@ -23,60 +22,9 @@ _NOT_PUBLISHED = (
 )
 
 
-class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker, in GenericWorker and in the user's class. GenericWorker defines it too, so that a user's
-    class without it compiles. The user's class does not declare it `override`: a method that an interface no longer
-    has would be an error."""
-
-    name: str
-    comment: str
-    declaration: str
-    fallback: str
-    overriding: str
-    definition: str
-    stub: list[str]
-
-
-class OperationView(msgspec.Struct, frozen=True):
-    """An operation of a servant. `calls` is the worker's method that it calls with `arguments`, '' for none."""
-
-    declaration: str
-    body: str
-    calls: str = ""
-    arguments: str = ""
-
-
-class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `new_methods` are the methods that no earlier port has. `declared` are pairs
-    of an operation and an exception that it declares, in braces; `statement` serves a port without any."""
-
-    name: str
-    title: str
-    servant: str
-    base: str
-    arguments: str
-    declared: list[str]
-    statement: str
-    operations: list[OperationView]
-    new_methods: list[MethodView]
-
-
-class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy of the worker, and the statement that creates it."""
-
-    name: str
-    proxy: str
-    comment: str
-    summary: str
-    statement: str
-
-
-Ports = PortViews[AccessorView, ServiceView]
-
-
-def port_views(component: LinkedComponent) -> Ports:
+def port_views(component: LinkedComponent) -> PortViews:
     lowered, servants = lowering.lower(component, PORTS), names()
-    return Ports(
+    return PortViews(
         [_required(accessor) for accessor in lowered.requires],
         [_published(accessor) for accessor in lowered.publishes],
         [_implemented(service, servants) for service in lowered.implements],
@@ -84,21 +32,22 @@ def port_views(component: LinkedComponent) -> Ports:
     )
 
 
-def _required(accessor: lowering.Accessor) -> AccessorView:
+def _required(accessor: lowering.Accessor) -> View:
     words = [literal(accessor.port.name), f"runtime::Absent::{accessor.port.use.absent}"]
     if accessor.milliseconds is not None:
         words.append(f"std::chrono::milliseconds({accessor.milliseconds})")
     return _accessor(accessor, accessor.summary, "connections.require", [f"{{{', '.join(words)}}}"])
 
 
-def _published(accessor: lowering.Accessor) -> AccessorView:
+def _published(accessor: lowering.Accessor) -> View:
     words = [literal(accessor.port.name), literal(accessor.port.interface.name)]
     return _accessor(accessor, f"{accessor.summary}: {accessor.events}", "topics.publish", words)
 
 
-def _accessor(accessor: lowering.Accessor, summary: str, function: str, arguments: list[str]) -> AccessorView:
+def _accessor(accessor: lowering.Accessor, summary: str, function: str, arguments: list[str]) -> View:
+    """A proxy of the worker, and the statement that creates it."""
     class_ = proxy(accessor.port.scope, accessor.port.interface.name)
-    return AccessorView(
+    return View(
         name=accessor.name,
         proxy=class_,
         comment=comment(f"{accessor.about}\n{accessor.doc}", IN),
@@ -107,26 +56,28 @@ def _accessor(accessor: lowering.Accessor, summary: str, function: str, argument
     )
 
 
-def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceView:
+def _implemented(service: lowering.Service, servants: NameAllocator) -> View:
     words = (service.port.name, service.identity, service.port.interface.name)
     arguments = ", ".join(map(literal, words))
     return _served(service, servants, "GeneratedServant", arguments, ("services.implement", f"{{{arguments}}}"))
 
 
-def _subscribed(service: lowering.Service, servants: NameAllocator) -> ServiceView:
+def _subscribed(service: lowering.Service, servants: NameAllocator) -> View:
     arguments = f"{literal(service.port.name)}, {literal(service.port.interface.name)}"
     return _served(service, servants, "GeneratedSubscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
 
 
 def _served(
     service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
-) -> ServiceView:
+) -> View:
+    """An implemented or subscribed port; `new_methods` are the methods that no earlier port has. `declared` are pairs
+    of an operation and an exception that it declares, in braces; `statement` serves a port without any."""
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     # "Generated", since the user's header is read after it, in the same translation unit.
     servant = servants.allocate(f"{port.name}{suffix}")
     if any(method.name == servant for method in port.interface.methods):
         servant += "_"
-    return ServiceView(
+    return View(
         name=port.name,
         title=service.title,
         servant=servant,
@@ -142,15 +93,17 @@ def _served(
     )  # fmt: skip
 
 
-def method_view(port: Port, method: Method, name: str) -> MethodView:
-    """The worker's method `name`, which an operation of the port calls."""
+def method_view(port: Port, method: Method, name: str) -> View:
+    """The worker's method `name`, which an operation of the port calls: in GenericWorker and in the user's class.
+    GenericWorker defines it too, so that a user's class without it compiles. The user's class does not declare it
+    `override`: a method that an interface no longer has would be an error."""
     scope = port.scope
     returns = "void" if method.returns is None else type_name(method.returns, scope)
     inputs = [(input_type(m.type, scope), parameter(m.name)) for m in method.inputs]
     outputs = [(f"{type_name(m.type, scope)}&", parameter(m.name)) for m in method.outputs]
     typed = [f"{type_} {word}" for type_, word in (*inputs, *outputs)]
     unused = [f"{type_} /*{word}*/" for type_, word in inputs] + [f"{type_} {word}" for type_, word in outputs]
-    return MethodView(
+    return View(
         name=name,
         comment=comment(described, IN) if (described := _described(port, method)) else "",
         declaration=declaration(f"virtual {returns} {name}", typed, ";", IN),
@@ -163,8 +116,9 @@ def method_view(port: Port, method: Method, name: str) -> MethodView:
     )
 
 
-def operation_view(method: Method, scope: LinkedModule, calls: str) -> OperationView:
-    """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
+def operation_view(method: Method, scope: LinkedModule, calls: str) -> View:
+    """The operation that calls the worker's method `calls` with `arguments`; '' for an operation that cannot be
+    published."""
     returns = "void" if method.returns is None else type_name(method.returns, scope)
     types = [(type_name(m.type, scope), m.name) for m in method.inputs]
     types += [(f"{type_name(m.type, scope)}&", m.name) for m in method.outputs]
@@ -172,7 +126,7 @@ def operation_view(method: Method, scope: LinkedModule, calls: str) -> Operation
     current = "const Ice::Current&" if calls else "const Ice::Current& current"
     start = f"{'' if method.returns is None else 'return '}worker_.{calls}"
     statement = declaration(start, [parameter(name) for _, name in types], ";", IN * 2)
-    return OperationView(
+    return View(
         declaration=declaration(f"{returns} {ice_name(method.name)}", [*typed, current], " override", IN),
         body=statement if calls else _NOT_PUBLISHED,
         calls=calls,

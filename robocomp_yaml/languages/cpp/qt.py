@@ -6,25 +6,15 @@ import os
 from collections import Counter
 from collections.abc import Iterator
 
-import msgspec
-from msgspec.structs import replace
-
-from robocomp_yaml.emit.render import View
+from robocomp_yaml.emit.render import View, changed
 from robocomp_yaml.languages._shared.text import IN, declaration
+from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.cpp.names import ice_name, older_names, parameter, qualified
-from robocomp_yaml.languages.cpp.ports import AccessorView, OperationView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
 _ABSENT = "robocomp::Absent"
-
-
-class Handles(msgspec.Struct, frozen=True):
-    """The proxies' classes of a module, for which there is a handle, as in Ice's older mapping."""
-
-    module: str
-    names: list[str]
 
 
 def qt_view(linked: LinkedComponent) -> View | None:
@@ -37,7 +27,7 @@ def qt_view(linked: LinkedComponent) -> View | None:
     return View(modules=" ".join(modules), libraries=libraries, base=gui.base if gui else "")
 
 
-def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
+def robocomp_view(linked: LinkedComponent, ports: PortViews) -> View | None:
     """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
     declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
     of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
@@ -46,8 +36,8 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
         return None
     accessors = ports.accessors
     classes = {accessor.name: accessor.proxy for accessor in accessors}
-    handles = [
-        Handles(ice_name(scope.module.name), [f"{one.name}Prx" for one in scope.module.all_interfaces])
+    handles = [  # of the proxies' classes of a module, as in Ice's older mapping
+        View(module=ice_name(scope.module.name), names=[f"{one.name}Prx" for one in scope.module.all_interfaces])
         for scope in linked.modules() if scope.module.all_interfaces
     ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
@@ -69,22 +59,22 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
     )
 
 
-def _casts(accessors: list[AccessorView]) -> list[str]:
+def _casts(accessors: list[View]) -> list[str]:
     """A cast for each proxy in the map, as arguments."""
     casts = [f'Ice::uncheckedCast<{accessor.proxy}>(mprx["{accessor.name}"]),' for accessor in accessors]
     return [*casts[:-1], casts[-1].removesuffix(",")] if casts else []
 
 
-def _behind_pointer(service: ServiceView) -> ServiceView:
+def _behind_pointer(service: View) -> View:
     """RoboComp creates servants before the worker, and the worker has no log."""
-    return replace(
+    return changed(
         service,
-        operations=[replace(one, body=_either(one)) if one.calls else one for one in service.operations],
-        new_methods=[replace(method, stub=method.stub[1:]) for method in service.new_methods],
+        operations=[changed(one, body=_either(one)) if one.calls else one for one in service.operations],
+        new_methods=[changed(method, stub=method.stub[1:]) for method in service.new_methods],
     )
 
 
-def _either(operation: OperationView) -> str:
+def _either(operation: View) -> str:
     """The call of the worker's method, which the oldest versions of the tool name without the interface."""
     names = (operation.calls, operation.calls.partition("_")[2])
     calls = [f"worker.{name}({operation.arguments})" for name in names]

@@ -19,7 +19,7 @@ from robocomp_yaml.emit.usage.code import MODULES, NO_RESULT, WORKER, Arguments,
 from robocomp_yaml.emit.usage.judge import is_nearly_proxy, is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.emit.usage.types import OfferedTypes
-from robocomp_yaml.languages._shared.usage_file import TEXT, WORD, unused
+from robocomp_yaml.languages._shared.usage_file import TEXT, WORD, unused, workers_of
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.names import PORTS, ice_name, older_names
 from robocomp_yaml.languages.cpp.parameters import accessors
@@ -36,7 +36,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     types = OfferedTypes(ice_name, _is_of_every_struct, _is_of_every_exception)
     returned = partial(types.result, tuples=False)
-    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=True)
+    members = offers.OfferedProxies(PORTS.called, _is_of_every_proxy, returned, outputs=True).every(ports)
     if linked.component.compatibility:
         members |= {name: members[now] for name, now in older_names(list(members))}
     else:
@@ -106,8 +106,7 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     if not names and not handlers and not modules and not is_robocomp:
         return CodeUsage()
     parsed = [TypedCppFile(path, text) for path, text in files.items() if _is_own(path)]
-    classes = {name: bases for file in parsed for name, bases in file.classes()}
-    workers = {name for name in classes if _is_worker(name, classes)}
+    workers = workers_of(one for file in parsed for one in file.classes())
     if not workers:
         return CodeUsage()
     uses: list[Occurrence] = []
@@ -175,15 +174,6 @@ def _extended(texts: Iterable[str]) -> set[str]:
 def _is_own(path: str) -> bool:
     """Whether a file is not one that RoboComp's own tool left in src/."""
     return not re.search(r"(^|/)(generic(worker|monitor)|specificmonitor|commonbehaviorI|ui_\w+|moc_\w+)\.\w+$", path)
-
-
-def _is_worker(name: str, classes: Mapping[str, list[str]]) -> bool:
-    """Whether a class is derived from the generic worker, and from nothing else."""
-    bases, seen = classes.get(name, []), {name}
-    while len(bases) == 1 and bases[0] in classes and bases[0] not in seen:
-        seen.add(bases[0])
-        bases = classes[bases[0]]
-    return bases == ["GenericWorker"]
 
 
 def _is_known_include(path: str, files: Mapping[str, str]) -> bool:

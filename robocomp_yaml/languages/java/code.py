@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cache
 
 import tree_sitter_java
-from tree_sitter import Language, Node, Parser, Tree
+from tree_sitter import Node, Tree
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
@@ -19,6 +18,7 @@ from robocomp_yaml.emit.specific.code import (
     field,
     lines_of,
     location,
+    parser,
     text,
 )
 from robocomp_yaml.languages.java.signature_types import SignatureTypes as SignatureTypes
@@ -27,13 +27,8 @@ COMMENTS = ("line_comment", "block_comment")
 _TOKEN = re.compile(r"\w+|\.\.\.|\S")
 
 
-@cache
-def _parser() -> Parser:
-    return Parser(Language(tree_sitter_java.language()))
-
-
 def parse(source: str) -> Tree:
-    return _parser().parse(source.encode())
+    return parser(tree_sitter_java.language).parse(source.encode())
 
 
 def read(path: str, source: str) -> SourceCode:

@@ -13,12 +13,10 @@ from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Map, Member, Method, Sequence, TypeRef
 
-Ports = PortViews[View, View]
 
-
-def port_views(component: LinkedComponent) -> Ports:
+def port_views(component: LinkedComponent) -> PortViews:
     lowered, servants = lowering.lower(component, PORTS), NameAllocator(("Services",))
-    return Ports(
+    return PortViews(
         [_required(accessor) for accessor in lowered.requires],
         [_published(accessor) for accessor in lowered.publishes],
         [_service(one, servants, "Servant", one.identity) for one in lowered.implements],

@@ -18,7 +18,7 @@ from robocomp_yaml.emit.usage.code import MODULES, WORKER, Chain, CodeUsage
 from robocomp_yaml.emit.usage.judge import is_nearly_proxy, is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.emit.usage.types import OfferedTypes
-from robocomp_yaml.languages._shared.usage_file import TEXT, WORD, unused
+from robocomp_yaml.languages._shared.usage_file import TEXT, WORD, unused, workers_of
 from robocomp_yaml.languages.java import LANGUAGE, OBJECT_METHODS
 from robocomp_yaml.languages.java.names import PACKAGE, PORTS, ice_name
 from robocomp_yaml.languages.java.parameters import accessors
@@ -36,7 +36,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     """What the worker of a component offers."""
     ports = lowering.lower(linked, PORTS)
     types = OfferedTypes(ice_name, _is_of_every_struct, lambda name: True)
-    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, partial(_returned, types), outputs=False)
+    members = offers.OfferedProxies(PORTS.called, _is_of_every_proxy, partial(_returned, types)).every(ports)
     members["parameters"] = OfferedMember(_parameters(linked))
     modules = offers.modules(
         linked, ice_name, ice_name, lambda name: name == "RoboCompCommonBehavior", types.of_definition
@@ -128,8 +128,7 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     words = {word for text in files.values() for word in WORD.findall(text)}
     names = sorted(word for word in words if word in known or is_proxy(word) or is_nearly_proxy(word, known))
     parsed = [JavaFile(path, text) for path, text in files.items()]
-    classes = {name: base for file in parsed for name, base in file.classes()}
-    workers = {name for name in classes if _is_worker(name, classes)}
+    workers = workers_of(one for file in parsed for one in file.classes())
     if not workers:
         return CodeUsage()
     declared = {name for name in names if any(file.declares(name) for file in parsed)}
@@ -155,11 +154,3 @@ def _of_modules(file: JavaFile, every: list[JavaFile], modules: Offer) -> Iterat
         if not any(one.declares(name) for one in every):
             yield from file.of_type(name, module)
             yield from file.typed(name, module)
-
-
-def _is_worker(name: str, classes: Mapping[str, str]) -> bool:
-    """Whether a class extends the generic worker, also by other classes of the code."""
-    seen = {name}
-    while (name := classes.get(name, "")) not in seen and name in classes:
-        seen.add(name)
-    return name == "GenericWorker"

@@ -35,12 +35,12 @@ class JavaFile(UsageFile):
     def __init__(self, path: str, source: str) -> None:
         super().__init__(path, source, parse)
 
-    def classes(self) -> Iterator[tuple[str, str]]:
-        """The classes, each with the class that it extends, or ''."""
+    def classes(self) -> Iterator[tuple[str, list[str]]]:
+        """The classes, each with the class that it extends."""
         for node in _of_type(self._tree.root_node, "class_declaration"):
             above = node.child_by_field_name("superclass")
             names = [text(one) for one in above.named_children] if above is not None else []
-            yield text(field(node, "name")), names[0].rpartition(".")[2] if names else ""
+            yield text(field(node, "name")), [name.rpartition(".")[2] for name in names[:1]]
 
     def methods(self, workers: Collection[str]) -> Iterator[Word]:
         """The names of the methods of the worker's classes."""

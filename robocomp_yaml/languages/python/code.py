@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Iterator
-from functools import cache
 
 import tree_sitter_python
 from msgspec.structs import replace
-from tree_sitter import Language, Node, Parser
+from tree_sitter import Node
 
 from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.specific.code import (
@@ -23,19 +22,15 @@ from robocomp_yaml.emit.specific.code import (
     field,
     lines_of,
     location,
+    parser,
     plain,
     text,
 )
 from robocomp_yaml.languages.python.signature_types import SignatureTypes as SignatureTypes
 
 
-@cache
-def _parser() -> Parser:
-    return Parser(Language(tree_sitter_python.language()))
-
-
 def read(path: str, source: str) -> SourceCode:
-    root = _parser().parse(source.encode()).root_node
+    root = parser(tree_sitter_python.language).parse(source.encode()).root_node
     lines = lines_of(source)
     code = _read(path, root, lines)
     older = _python_2(root) if not compiles(code) else None

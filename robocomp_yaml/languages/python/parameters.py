@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import msgspec
-
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     Types,
@@ -19,7 +17,7 @@ from robocomp_yaml.emit.lowering.parameters import (
     records,
     titled,
 )
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, folded, literal, one_line
@@ -47,25 +45,6 @@ _TAKEN = (
 ).split()
 
 
-class EnumView(msgspec.Struct, frozen=True):
-    name: str
-    literal: str
-    docstring: str
-
-
-class MemberView(msgspec.Struct, frozen=True):
-    name: str
-    hint: str
-    declaration: str
-    docstring: str
-
-
-class RecordView(msgspec.Struct, frozen=True):
-    name: str
-    docstring: str
-    members: list[MemberView]
-
-
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/parameters.py`."""
     return FilePlan("generated/parameters.py", text(*declared(linked)))
@@ -88,7 +67,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
     )
 
 
-def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:
+def _imports(views: list[View], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:
     hints = " ".join(member.hint for view in views for member in view.members)
     if "Mapping[" in hints:
         yield "from collections.abc import Mapping"
@@ -119,19 +98,19 @@ class _Types(Types):
             root, NameAllocator((*_TAKEN, *members)), _SPELLING
         )  # a class's members hide types of the same name
 
-    def enum(self, enum: EnumType) -> EnumView:
-        names = ", ".join(map(literal, enum.names))
-        return EnumView(self.of[enum.name], f"Literal[{names}]", docstring("\n".join(about_enum(enum)), ""))
+    def enum(self, enum: EnumType) -> View:
+        names, about = ", ".join(map(literal, enum.names)), docstring("\n".join(about_enum(enum)), "")
+        return View(name=self.of[enum.name], literal=f"Literal[{names}]", docstring=about)
 
-    def record(self, path: str, record: RecordType) -> RecordView:
+    def record(self, path: str, record: RecordType) -> View:
         group = group_of(path, record)
-        return RecordView(
-            self.of[path],
-            docstring(self.about_record(path, record), "    "),
-            [self.member(member, group) for member in record.members],
+        return View(
+            name=self.of[path],
+            docstring=docstring(self.about_record(path, record), "    "),
+            members=[self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> View:
         """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         arguments = [self.kind(member.type, inner)]
@@ -143,9 +122,11 @@ class _Types(Types):
             arguments.append(f"key={literal(member.name)}")
         hint = self.spelled(member.type, inner)
         hint = f"Optional[{hint}]" if member.optional else hint
-        doc = about_member(member, "\n\n")
-        return MemberView(
-            name, hint, folded("composite.member(", arguments, ")", "    ", WIDTH), docstring(doc, "    ")
+        return View(
+            name=name,
+            hint=hint,
+            declaration=folded("composite.member(", arguments, ")", "    ", WIDTH),
+            docstring=docstring(about_member(member, "\n\n"), "    "),
         )
 
     def kind(self, type_: Type, group: str | None) -> str:

@@ -11,15 +11,14 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator
 
-import msgspec
-
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
-from robocomp_yaml.emit.render import View, render
+from robocomp_yaml.emit.render import View, changed, render
+from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.python import LANGUAGE, parameters
 from robocomp_yaml.languages.python.names import ice_name, module_variable, python_name
-from robocomp_yaml.languages.python.ports import Ports, port_views
+from robocomp_yaml.languages.python.ports import port_views
 from robocomp_yaml.languages.python.stubs import stub
 from robocomp_yaml.languages.python.text import docstring, one_line
 from robocomp_yaml.link.program import LinkedComponent
@@ -27,13 +26,6 @@ from robocomp_yaml.link.references import groups
 from robocomp_yaml.model.interface import Sequence
 from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-
-class SliceModule(msgspec.Struct, frozen=True):
-    """A Slice module: Ice's name for it, and the variable that holds it."""
-
-    name: str
-    variable: str
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
@@ -76,7 +68,7 @@ _SCRIPTING = "machine/scripting.py"  # it evaluates expressions of documents
 def _robocomp(view: View) -> list[FilePlan]:
     """The modules that code for RoboComp's own tool imports, and a skeleton as that tool writes it."""
     every = tuple(module.variable for module in view.modules)
-    view = View(**vars(view), imports=", ".join(every), spread=every)
+    view = changed(view, imports=", ".join(every), spread=every)
     return [
         FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
         FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
@@ -103,7 +95,7 @@ def needs(component: LinkedComponent) -> Callable[[str], bool]:
     return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
-def _view(linked: LinkedComponent, ports: Ports, layout: Layout) -> View:
+def _view(linked: LinkedComponent, ports: PortViews, layout: Layout) -> View:
     """What the templates show. All files of a component use the same view, with the `imports` that they need."""
     component = linked.component
     lowered = lower(linked)
@@ -119,7 +111,8 @@ def _view(linked: LinkedComponent, ports: Ports, layout: Layout) -> View:
         period=lowered.period,
         # literals of Python
         files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
-        modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
+        # Ice's names of Slice modules, and the variables that hold these
+        modules=[View(name=ice_name(name), variable=module_variable(name)) for name in lowered.modules],
         escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
         has_behavior=lowered.is_common,  # its Slice is ours, not the user's

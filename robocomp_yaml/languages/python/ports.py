@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import msgspec
-
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.python.names import PORTS, ice_name, module_variable, parameters
@@ -20,53 +19,10 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Method
 
 
-class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker that a servant calls; `value` is what its stub returns, '' for nothing; `plain_signature`
-    has no type hints."""
-
-    operation: str
-    name: str
-    signature: str
-    plain_signature: str
-    throws: str
-    is_tuple: str
-    docstring: str
-    summary: str
-    value: str
-
-
-class ServedView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port. `new_methods` are the methods that no earlier port has."""
-
-    name: str
-    identity: str
-    topic: str
-    interface: str
-    title: str
-    methods: list[MethodView]
-    new_methods: list[MethodView]
-
-
-class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy of the worker. `absent` and `timeout` are '' for the run time's default."""
-
-    name: str
-    topic: str
-    attribute: str
-    proxy: str
-    docstring: str
-    summary: str
-    absent: str = ""
-    timeout: str = ""
-
-
-Ports = PortViews[AccessorView, ServedView]
-
-
-def port_views(component: LinkedComponent) -> Ports:
+def port_views(component: LinkedComponent) -> PortViews:
     lowered = lowering.lower(component, PORTS)
     modules = [module_variable(linked.module.name) for linked in component.modules()]
-    return Ports(
+    return PortViews(
         [_accessor(accessor) for accessor in lowered.requires],
         [_accessor(accessor, accessor.port.interface.name) for accessor in lowered.publishes],
         [_served(service, modules) for service in lowered.implements],
@@ -74,9 +30,10 @@ def port_views(component: LinkedComponent) -> Ports:
     )
 
 
-def _accessor(accessor: lowering.Accessor, topic: str = "") -> AccessorView:
+def _accessor(accessor: lowering.Accessor, topic: str = "") -> View:
+    """A proxy of the worker. `absent` and `timeout` are '' for the run time's default."""
     port = accessor.port
-    return AccessorView(
+    return View(
         name=port.name,
         topic=topic,
         attribute=accessor.name,
@@ -88,15 +45,23 @@ def _accessor(accessor: lowering.Accessor, topic: str = "") -> AccessorView:
     )
 
 
-def _served(service: lowering.Service, modules: Sequence[str]) -> ServedView:
+def _served(service: lowering.Service, modules: Sequence[str]) -> View:
+    """An implemented or subscribed port. `new_methods` are the methods that no earlier port has."""
     port = service.port
-    topic, interface = port.interface.name, qualified(port.scope, port.interface.name)
-    every = [_method(called, modules) for called in service.methods]
-    new = [_method(called, modules) for called in service.new]
-    return ServedView(port.name, service.identity, topic, interface, service.title, every, new)
+    return View(
+        name=port.name,
+        identity=service.identity,
+        topic=port.interface.name,
+        interface=qualified(port.scope, port.interface.name),
+        title=service.title,
+        methods=[_method(called, modules) for called in service.methods],
+        new_methods=[_method(called, modules) for called in service.new],
+    )
 
 
-def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> MethodView:
+def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> View:
+    """A method of the worker that a servant calls; `value` is what its stub returns, '' for nothing; `plain_signature`
+    has no type hints."""
     port, method, name = called.port, called.method, called.name
     scope = port.scope
     names = list(parameters((member.name for member in method.inputs), modules))
@@ -104,7 +69,7 @@ def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> MethodView
     throws = [hint(ref, scope) for ref in method.throws]
     doc = method.doc or f"{port.interface.name}.{method.name}"
     details = "\n".join(_details(method, names, throws))
-    return MethodView(
+    return View(
         operation=ice_name(method.name),
         name=name,
         signature=signature(name, typed, result_hint(method, scope), IN),

@@ -57,17 +57,11 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception, lists, natives)
     if is_own:
         members |= _of_worker(linked)
-    returned = partial(types.result, tuples=True)
-    members |= offers.proxies(
-        ports,
-        PORTS.called,
-        _is_of_every_proxy,
-        returned,
-        outputs=False,
-        keywords=_keywords,
-        future=_future,
+    proxies = offers.OfferedProxies(
+        PORTS.called, _is_of_every_proxy, partial(types.result, tuples=True), keywords=_keywords, future=_future,
         of_ice=_OF_ICE,
-    )
+    )  # fmt: skip
+    members |= proxies.every(ports)
     if is_own:
         of_parameters = {**natives, offers.LIST: _members_of(tuple)}
         values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code, natives=of_parameters)
@@ -87,12 +81,8 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
-    made = partial(
-        offers.proxy, called=PORTS.called, others=_is_of_every_proxy, returned=returned, outputs=False,
-        keywords=_keywords, future=_future, of_ice=_OF_ICE,
-    )  # fmt: skip
     modules = offers.modules(
-        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True, prx=made
+        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True, prx=proxies
     )  # fmt: skip
     if is_own and not linked.broken:
         modules = _as_hints(linked, modules, types)

@@ -7,19 +7,13 @@ import re
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.emit.exports.rcmanager import GENERAL
+from robocomp_yaml.emit.exports.rcmanager import ATTRIBUTES, GENERAL
 from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode
 from robocomp_yaml.source import rcremote
-
-ATTRIBUTES = {
-    "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
-    "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
-}  # fmt: skip
-"""The elements of a node with one value, and the attribute of the value."""
 
 _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _ENTITY = re.compile(r"&(?:#x(?P<hex>[0-9a-fA-F]+);|#(?P<decimal>[0-9]+);|(?P<name>\w+);)?")

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import Diagnosed
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
@@ -33,11 +34,8 @@ from robocomp_yaml.semantics.limits import CHOICE, LIMITS, PATTERN, RANGE
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-class _Rejected(Exception):
+class _Rejected(Diagnosed):
     """A limit is invalid, and the type is unchanged."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        self.diagnostic = diagnostic
 
 
 def limited(type_: Type, limits: LimitNodes, found: list[Diagnostic]) -> Type:

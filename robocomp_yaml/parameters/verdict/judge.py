@@ -40,12 +40,14 @@ def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | 
     match type_:
         case BasicType() | EnumType():
             yield from _scalar(type_, node, path, key)
-        case ListType():
+        case ListType() if isinstance(node, Sequence):
             yield from _list(type_, node, path, complete, key)
-        case MapType():
+        case MapType() if isinstance(node, Mapping):
             yield from _map(type_, node, path, complete, key)
-        case RecordType():
+        case RecordType() if isinstance(node, Mapping):
             yield from _record(type_, node, path, complete, key)
+        case _:
+            yield _wrong_type(type_, node, path, key)
 
 
 def shown(node: Node, type_: Type) -> str:
@@ -160,10 +162,7 @@ def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar 
     return codes.OUT_OF_RANGE.at(_span(node, key), path=in_words(path), value=value, wanted=expected, hint=hint)
 
 
-def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
-    if not isinstance(node, Sequence):
-        yield _wrong_type(type_, node, path, key)
-        return
+def _list(type_: ListType, node: Sequence, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
     yield from wrong_size(type_, len(node.items), node, path, key)
     seen: set[object] = set()
     for index, item in enumerate(node.items):
@@ -184,10 +183,7 @@ def wrong_size(
         yield codes.WRONG_SIZE.at(_span(node, key), path=in_words(path), count=elements(count), wanted=size)
 
 
-def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
-    if not isinstance(node, Mapping):
-        yield _wrong_type(type_, node, path, key)
-        return
+def _map(type_: MapType, node: Mapping, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
     if complete:  # the size of a layer is judged after merging
         yield from wrong_size(type_, len(node.entries), node, path, key)
     for name, value in node.items():
@@ -196,10 +192,7 @@ def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | N
         yield from judge(type_.element, value, (*path, name.lexeme), complete=complete, key=name)
 
 
-def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
-    if not isinstance(node, Mapping):
-        yield _wrong_type(type_, node, path, key)
-        return
+def _record(type_: RecordType, node: Mapping, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
     for name, value in node.items():
         member = type_.member(name.lexeme)
         if member is None:
