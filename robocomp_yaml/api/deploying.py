@@ -18,6 +18,7 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import KILLED, DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, engine_of, make_engine
 from robocomp_yaml.deploy.install import installed
+from robocomp_yaml.deploy.local import record
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, disabled, unhealthy, with_dependences
@@ -197,6 +198,9 @@ class Deployment:
         if isinstance(on_failure, str):
             require("way to handle failures", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
         (chosen, forced), limit = self._to_start(names, restart), TimeLimit(timeout)
+        renamed.refuse_start(self.network)
+        if chosen and not os.path.isdir(self.network.folder):
+            chosen |= self.enabled.intersection(record.running(self.network.folder))
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
         decided = operations.always(on_failure) if isinstance(on_failure, str) else on_failure
@@ -241,7 +245,7 @@ class Deployment:
         """Goes back to the last `up` that was all ready and differs from what runs: its processes, commands and
         configurations. Programs that were rebuilt since then stay rebuilt. Raises Refused if there was none."""
         own = self.network.folder
-
+        renamed.refuse_start(self.network)
         decided = operations.always(on_failure) if isinstance(on_failure, str) else on_failure
 
         async def work() -> Result:

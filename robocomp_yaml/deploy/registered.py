@@ -105,9 +105,12 @@ def copies(folder: str) -> str:
 
 
 def keep(one: RegisteredDeployment) -> None:
-    """Adds or replaces an entry. Raises OSError."""
+    """Adds or replaces an entry, also that of the same supervisor in a folder that was moved since. Raises OSError."""
     folder = made_private(one.folder)
     whole_file.put(f"{folder}/{_ENTRY}", msgspec.json.encode(one), 0o600)
+    for other in every() if one.supervisor else ():
+        if (other.supervisor, other.start) == (one.supervisor, one.start) and other.folder != one.folder:
+            forget(other.folder)
 
 
 def copy(folder: str, paths: Iterable[str]) -> None:

@@ -7,6 +7,7 @@ import os
 
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.local import record
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import Network
@@ -16,6 +17,13 @@ def refuse(network: Network) -> None:
     """Raises Refused if a deployment runs that this document described under another name."""
     if found := under_another_name(network):
         raise Refused(found)
+
+
+def refuse_start(network: Network) -> None:
+    """Raises Refused if a deployment of this name runs whose document is gone: it may be this one, which was moved, and
+    would run twice."""
+    if found := at_another_path(network):
+        raise Refused(f"{found}, before this one starts")
 
 
 def under_another_name(network: Network) -> str:
@@ -31,12 +39,17 @@ def under_another_name(network: Network) -> str:
 def at_another_path(network: Network) -> str:
     """Which deployment of this name runs although its document is gone, and what stops it; '' if none does."""
     for one in registered.every():
-        is_other = one.name == network.name and one.folder != network.folder
+        is_other = one.name == network.name and one.folder != network.folder and not _was_moved(one, network)
         if is_other and not os.path.exists(one.document) and _runs(one):
             document = shown_path(one.document)
             down = typed("rcyaml", "deploy", "down", document)
             return f"another '{one.name}' runs, whose document {document} is gone: `{down}` stops it"
     return ""
+
+
+def _was_moved(one: registered.RegisteredDeployment, network: Network) -> bool:
+    """Whether it runs in the network's own folder, which was moved with all that is in it."""
+    return one.is_supervised and not os.path.exists(one.folder) and record.keeps(network.folder, one.supervisor)
 
 
 def _runs(one: registered.RegisteredDeployment) -> bool:

@@ -80,6 +80,16 @@ def test_each_file(place: Place, rcyaml: Rcyaml, robot: tuple[str, ...]) -> None
     all_ends(place.folder)
 
 
+def test_an_up_of_one_process_without_its_folder(place: Place, rcyaml: Rcyaml, robot: tuple[str, ...]) -> None:
+    """What ran beside it starts again, too: it ends, as its configuration is gone."""
+    shutil.rmtree(place.folder)
+    assert rcyaml("deploy", "up", *robot, "base").exit_code == 0
+    until(lambda: [len(programs(place.folder, name)) for name in ("base", "arm")] == [1, 1], "each runs once")
+    assert rcyaml("deploy", "status", *robot).exit_code == 0
+    assert rcyaml("deploy", "down", *robot).exit_code == 0
+    all_ends(place.folder)
+
+
 def test_an_up_without_its_folder(place: Place, rcyaml: Rcyaml, robot: tuple[str, ...]) -> None:
     """A changed process starts, each one once."""
     shutil.rmtree(place.folder)

@@ -74,8 +74,26 @@ def test_a_document_at_another_path(robot: Path, rcyaml: Rcyaml) -> None:
         said = rcyaml("deploy", command, "moved/robot.ddsl.yaml")
         assert "another 'Old' runs, whose document robot.ddsl.yaml is gone" in said.stderr
         assert "`rcyaml deploy down robot.ddsl.yaml` stops it" in said.stderr
+    for command in ("up", "restart", "rollback"):
+        assert rcyaml("deploy", command, "moved/robot.ddsl.yaml").exit_code == 2  # they would run twice
     assert rcyaml("deploy", "down", "robot.ddsl.yaml").stdout == "arm   stopped\nbase  stopped\n"
     assert not rcyaml("deploy", "status", "moved/robot.ddsl.yaml").stderr
+
+
+def test_a_folder_that_was_moved_has_what_ran_in_it(place: Place, tmp_path: Path, rcyaml: Rcyaml) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", f"{tmp_path}/own")
+        write_tree(tmp_path, {"a/robot.ddsl.yaml": DOCUMENT.format(name="Moved")})
+        patch.chdir(tmp_path / "a")
+        assert rcyaml("deploy", "up").exit_code == 0
+        (tmp_path / "a").rename(tmp_path / "b")
+        patch.chdir(tmp_path / "b")
+        shown = rcyaml("deploy", "status")
+        assert shown.stdout.count("ready") == 2 and not shown.stderr
+        assert rcyaml("deploy", "up").exit_code == 0  # in the folder of today
+        assert rcyaml("deploy", "ls").stdout.count("Moved") == 1
+        assert rcyaml("deploy", "down").stdout == "arm   stopped\nbase  stopped\n"
+        assert rcyaml("deploy", "ls").stdout == "no deployment is running\n"
 
 
 def test_what_was_killed_prevents_nothing(robot: Path, rcyaml: Rcyaml) -> None:

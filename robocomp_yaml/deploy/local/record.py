@@ -51,6 +51,12 @@ def supervisor(folder: str) -> int:
     return next((one.pid for one in children if procfs.mark_of(one.pid) == f"{folder}:"), 0)
 
 
+def keeps(folder: str, supervisor: int) -> bool:
+    """Whether the keeper of the record is that of this supervisor, which may know the folder by an earlier path."""
+    keeper, kept = _keeper(folder), procfs.entry(supervisor)
+    return keeper is not None and kept is not None and kept.parent == keeper.pid
+
+
 def continue_halted(folder: str) -> bool:
     """Lets a keeper go on that was halted (SIGSTOP), which does the same for its supervisor. Returns whether it was
     halted."""
