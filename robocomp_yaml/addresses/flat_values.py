@@ -13,6 +13,7 @@ from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.kinds import recording
 from robocomp_yaml.parameters.specification.document import ValuesDocument
+from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.composite import Kind, ListKind, MapKind, RecordKind
 from robocomp_yaml.semantics.plain import PlainKind
@@ -51,10 +52,11 @@ class FlatValues:
 
     def __init__(self, flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> None:
         self._path, self._component, self._text_of_file = flat.path, component, flat.text
+        self._linked = linked
         self._entries = flat.entries
         self.connections = self._connections()
         self.unknown_ports: dict[str, tuple[str, str, Span]] = {}
-        reader = _Reader({key: self._text(entry) for key, entry in self._entries.items()}, linked)
+        reader = self._reader()
         kind = recording(linked.parameters.root)
         texts = reader.read(kind)
         top = Span(flat.path, 1, 1, 1, 1)
@@ -65,6 +67,15 @@ class FlatValues:
             if entries:
                 root[name] = (text_at(top, name), mapping_at(top, entries))
         self.layer = LinkedValues(ValuesDocument(flat.path, mapping_at(top, root)), parameters=linked)
+
+    def keys_of(self, record: RecordType) -> set[str]:
+        """The properties with the values of a part of the parameters."""
+        reader = self._reader()
+        reader.read(recording(record))
+        return reader.used
+
+    def _reader(self) -> _Reader:
+        return _Reader({key: self._text(entry) for key, entry in self._entries.items()}, self._linked)
 
     def _text(self, entry: IceProperty) -> _TextAt:
         made = _TextAt(entry.value)
