@@ -216,7 +216,7 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.addresses import clashes
-            from robocomp_yaml.check.flat.configs import replaced
+            from robocomp_yaml.check.flat.configs import missing, replaced
             from robocomp_yaml.emit.specific import existing_code
 
             program = analysis.program
@@ -227,6 +227,7 @@ class Workspace:
 
             part = "flat configs", analysis.discovered.documents
             yield from program.memory.result(part, (analysis.undeployed,), of_flat_configs)
+            yield from missing(program)
             if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 
