@@ -17,7 +17,7 @@ from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.composite import Kind, ListKind, MapKind, RecordKind
 from robocomp_yaml.semantics.plain import PlainKind
-from robocomp_yaml.semantics.reading import PropertyReader
+from robocomp_yaml.semantics.reading import ROBOCOMP, PropertyReader
 from robocomp_yaml.semantics.references import Unresolved, unresolved
 from robocomp_yaml.semantics.spellings import Spelling
 from robocomp_yaml.semantics.texts import unquoted
@@ -61,7 +61,7 @@ class FlatValues:
         texts = reader.read(kind)
         top = Span(flat.path, 1, 1, 1, 1)
         parameters = _record(kind, texts, top)
-        sections, self.unread = self._sections(reader.used)
+        sections, self.unread = self._sections(self._keys(reader))
         root: Entries = {"component": (text_at(top, "component"), text_at(top, ""))}
         for name, entries in (("parameters", parameters.entries), *sections.items()):
             if entries:
@@ -72,7 +72,11 @@ class FlatValues:
         """The properties with the values of a part of the parameters."""
         reader = self._reader()
         reader.read(recording(record))
-        return reader.used
+        return self._keys(reader)
+
+    def _keys(self, reader: _Reader) -> set[str]:
+        """The properties that a reader has read, by their own names."""
+        return {key if key in self._entries else ROBOCOMP.get(key, key) for key in reader.used}
 
     def _reader(self) -> _Reader:
         return _Reader({key: self._text(entry) for key, entry in self._entries.items()}, self._linked)

@@ -122,6 +122,25 @@ def test_spelled_properties_are_read_alike(subjects: Subjects) -> None:
             assert _comparable(got) == _comparable(_as_python_reads(subjects.spelled, held)), held
 
 
+PERIODS: list[tuple[dict[str, str], tuple[int, int] | None]] = [
+    ({"Period.Compute": "20", "Period.Emergency": "30"}, (20, 30)),
+    ({"Period.Compute": "20", "period.compute": "10"}, (10, 500)),
+    ({"period.Compute": "20", "Period.compute": "20", "PERIOD.COMPUTE": "20"}, (100, 500)),
+    ({"Period.Compute": "0"}, None),
+]
+
+
+def test_the_names_of_robocomp_for_periods_are_read_alike(subjects: Subjects) -> None:
+    answers = subjects.program.read([("period", held) for held, _ in PERIODS])
+    of = linked({"parameters": {}}).parameters
+    for (held, expected), (got, problems) in zip(PERIODS, answers, strict=True):
+        read, refused = accessors.as_written(of, held)
+        assert bool(problems) == bool(refused) == (expected is None), (held, problems, refused)
+        if expected is not None:
+            assert read == {"period": dict(zip(("compute", "emergency"), expected, strict=True))}, held
+            assert list(map(int, (got["period.compute"], got["period.emergency"]))) == list(expected), held
+
+
 def _as_python_reads(of: Parameters, held: dict[str, str]) -> dict[str, str]:
     """Every plain value but the periods, which each component has."""
     entries = accessors.store(of, held).entries()

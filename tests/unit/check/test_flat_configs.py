@@ -83,6 +83,19 @@ def test_what_a_component_reads_is_right(line: str) -> None:
     assert not found(f"{HEAD}{line}\n")
 
 
+@pytest.mark.parametrize("name", ["Period.Compute", "Period.Emergency"])
+def test_the_names_of_robocomp_for_periods_are_read(name: str) -> None:
+    assert not found(f"{HEAD}{name}=50\n")
+    (one,) = found(f"{HEAD}{name}=0\n")
+    assert (one.code, one.span.line, one.span.column) == ("RC3303", 2, len(name) + 2)
+
+
+@pytest.mark.parametrize("line", ["period.Compute=50", "Period.compute=50", "PERIOD.COMPUTE=50", "Period.Computer=50"])
+def test_other_spellings_of_periods_are_not_read(line: str) -> None:
+    (one,) = found(f"{HEAD}{line}\n")
+    assert (one.code, one.severity) == ("RC3301", "error") and "did you mean 'period.compute'?" in one.hint
+
+
 def test_a_property_of_ones_own_is_only_a_warning() -> None:
     (one,) = found(f"{HEAD}Vendor.Serial=A17\n")
     assert (one.code, one.severity) == ("RC3301", "warning") and "properties:" in one.hint

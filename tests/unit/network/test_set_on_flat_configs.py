@@ -113,3 +113,11 @@ def test_values_of_a_flat_config_that_nobody_judges_are_not_used() -> None:
     text = 'components: {lips: {component: mouth, config: etc/config, set: {"open[0]": 3}}}\n'
     files = deployed(text, **{"mouth/mouth.pdsl.yaml": PDSL, "mouth/etc/config": "Open0=1\none.vel=fast\n"})
     assert [said(fault)[0] for fault in faults(files)] == ["RC4307"]
+
+
+def test_a_period_by_the_name_of_robocomp_is_replaced() -> None:
+    text = "components: {lips: {component: mouth, set: {period: {compute: 20}}}}\n"
+    flat = "Period.Compute=50\nPeriod.Emergency=60\n"
+    found = config(network(deployed(text, **{"mouth/etc/config": flat})).processes["lips"])
+    assert found["period.compute"] == "20" and "Period.Compute" not in found
+    assert found["Period.Emergency"] == "60" and "period.emergency" not in found
