@@ -201,3 +201,16 @@ def test_a_folder_of_imports_must_exist(place: Path, rcyaml: Rcyaml, folder: str
 def test_a_folder_of_imports_may_be_unsaved(place: Path) -> None:
     unsaved = {"more/Face.idsl.yaml": "module: F\n", "x.cdsl.yaml": "component: X\nlanguage: python\nimports: [Face]\n"}
     assert "RC1101" not in {one.code for one in api.load("x.cdsl.yaml", include=["more"], overlay=unsaved).check()}
+
+
+def test_apply_writes_what_no_error_blocks_and_the_files_for_editors(place: Path) -> None:
+    """As docs/api.md says."""
+    write_tree(place, {"bad/bad.cdsl.yaml": "component: BadComp\nlanguage: python\nimports: [Nope]\n"})
+    plan = api.load().compile()
+    assert plan.has_errors and plan.outcome.left_out == {"bad/bad.cdsl.yaml": True}
+    planned = {file.path for file in plan.files}
+    assert planned == {file.path for file in plan.apply().files}
+    found = read_tree(place)
+    assert planned <= found.keys() and not [path for path in found if path.startswith(("bad/generated", "bad/src"))]
+    for file in (".vscode/settings.json", ".rcyaml/schemas/cdsl.schema.json"):
+        assert file in found and file not in planned
