@@ -70,6 +70,25 @@ def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
     return (None if problems else composite.data(kind, values)), problems
 
 
+def put(parameters: Parameters, data: dict[str, Any]) -> tuple[Any, dict[str, str], list[str]]:
+    """Data with which a component sets its parameters: as data again, with defaults; its plain values by their paths;
+    and what is wrong."""
+    made = python(parameters)
+    from generated.runtime import editing  # type: ignore[import-not-found]
+    from generated.runtime.semantics import composite
+    from generated.runtime.semantics.plain import Conversion
+
+    kind, conversion, whole = composite.RecordKind(made.TABLE.values), Conversion(), dict[str, Any]()
+    for name, value in data.items():
+        assert editing.put(kind, whole, [name], value)
+    values = kind.convert(whole, (), conversion)
+    problems = [problem.message for problem in conversion.problems]
+    if problems:
+        return None, {}, problems
+    entries = dict(editing.flat(kind, values, {}))
+    return composite.data(kind, values), {key: entry.text for key, entry in entries.items()}, []
+
+
 def read(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[str]]:
     """The values that properties give, as data; and what is wrong."""
     python(parameters)

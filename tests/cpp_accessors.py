@@ -38,9 +38,16 @@ class Program:
         for words in self.ask([f"judge {member} {encoded(data)}" for member, data in asked]):
             yield problems(words)
 
+    def put(self, asked: list[tuple[str, Any]]) -> Iterator[tuple[dict[str, str], list[str]]]:
+        """Each plain value of members that are set to data while a component runs, by its path; and what is wrong."""
+        yield from self._values([f"put {member} {encoded(data)}" for member, data in asked])
+
     def read(self, asked: list[tuple[str, dict[str, str]]]) -> Iterator[tuple[dict[str, str], list[str]]]:
         """Each plain value that properties give a member, by its path; and what is wrong."""
-        for words in self.ask([f"read {member} {encoded(held)}" for member, held in asked]):
+        yield from self._values([f"read {member} {encoded(held)}" for member, held in asked])
+
+    def _values(self, lines: list[str]) -> Iterator[tuple[dict[str, str], list[str]]]:
+        for words in self.ask(lines):
             pairs = (word.partition("=") for word in words[1:]) if words[0] == "fits" else ()
             yield {unhexed(key): unhexed(text) for key, _, text in pairs}, problems(words)
 

@@ -13,10 +13,11 @@ from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.kinds import recording
 from robocomp_yaml.parameters.specification.document import ValuesDocument
+from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.composite import Kind, ListKind, MapKind, RecordKind
 from robocomp_yaml.semantics.plain import PlainKind
-from robocomp_yaml.semantics.reading import PropertyReader
+from robocomp_yaml.semantics.reading import ROBOCOMP, PropertyReader
 from robocomp_yaml.semantics.references import Unresolved, unresolved
 from robocomp_yaml.semantics.spellings import Spelling
 from robocomp_yaml.semantics.texts import unquoted
@@ -51,20 +52,34 @@ class FlatValues:
 
     def __init__(self, flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> None:
         self._path, self._component, self._text_of_file = flat.path, component, flat.text
+        self._linked = linked
         self._entries = flat.entries
         self.connections = self._connections()
         self.unknown_ports: dict[str, tuple[str, str, Span]] = {}
-        reader = _Reader({key: self._text(entry) for key, entry in self._entries.items()}, linked)
+        reader = self._reader()
         kind = recording(linked.parameters.root)
         texts = reader.read(kind)
         top = Span(flat.path, 1, 1, 1, 1)
         parameters = _record(kind, texts, top)
-        sections, self.unread = self._sections(reader.used)
+        sections, self.unread = self._sections(self._keys(reader))
         root: Entries = {"component": (text_at(top, "component"), text_at(top, ""))}
         for name, entries in (("parameters", parameters.entries), *sections.items()):
             if entries:
                 root[name] = (text_at(top, name), mapping_at(top, entries))
         self.layer = LinkedValues(ValuesDocument(flat.path, mapping_at(top, root)), parameters=linked)
+
+    def keys_of(self, record: RecordType) -> set[str]:
+        """The properties with the values of a part of the parameters."""
+        reader = self._reader()
+        reader.read(recording(record))
+        return self._keys(reader)
+
+    def _keys(self, reader: _Reader) -> set[str]:
+        """The properties that a reader has read, by their own names."""
+        return {key if key in self._entries else ROBOCOMP.get(key, key) for key in reader.used}
+
+    def _reader(self) -> _Reader:
+        return _Reader({key: self._text(entry) for key, entry in self._entries.items()}, self._linked)
 
     def _text(self, entry: IceProperty) -> _TextAt:
         made = _TextAt(entry.value)

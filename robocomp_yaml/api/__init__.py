@@ -72,19 +72,23 @@ def load(
 
     Returns a workspace whatever the documents contain: `Workspace.check` reports what is wrong with them.
     """
+    from robocomp_yaml.api.refusals import include_folders, require_paths
     from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.source.disk import Disk
     from robocomp_yaml.source.text import encoded
 
+    require_paths(*paths, *(overlay or {}))
     texts = {path: encoded(text) if isinstance(text, str) else text for path, text in (overlay or {}).items()}
-    return Workspace(paths or (".",), tuple(include), texts, on_read)
+    return Workspace(paths or (".",), include_folders(include, Disk(texts)), texts, on_read)
 
 
 def follow(*paths: str, include: Iterable[str] = ()) -> LivingWorkspace:
     """The same documents, for programs that analyse them again and again while they change, such as editors: each
     analysis redoes only what depends on a change."""
     from robocomp_yaml.api.living import LivingWorkspace
+    from robocomp_yaml.api.refusals import include_folders
 
-    return LivingWorkspace(paths or (".",), include)
+    return LivingWorkspace(paths or (".",), include_folders(include))
 
 
 def edit(*paths: str, include: Iterable[str] = ()) -> DocumentEditor:
@@ -113,8 +117,10 @@ def migrate(
     beside their sources. `force` overwrites documents that were edited since, `exact` keeps blanks around the
     separators of lists."""
     from robocomp_yaml.api.migrating import Migration
+    from robocomp_yaml.api.refusals import include_folders, require_paths
 
-    return Migration(paths, output, tuple(include), force=force, exact=exact)
+    require_paths(*paths, *([output] if output is not None else []))
+    return Migration(paths, output, include_folders(include), force=force, exact=exact)
 
 
 if not TYPE_CHECKING:  # mypy would accept any name

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.addresses.flat_values import flat_values
+from robocomp_yaml.addresses.flat_values import FlatValues, flat_values
 from robocomp_yaml.addresses.own_configuration import own_configuration
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.link.flat_configs import flat_at
@@ -20,12 +20,12 @@ from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.yaml_text import flow
 
 
-def flat_layer(path: str, program: Program) -> LinkedValues | None:
+def flat_file(path: str, program: Program) -> FlatValues | None:
     """A component's flat config as values; None if it cannot be read."""
     flat, home = flat_at(path, program.disk), os.path.realpath(os.path.dirname(os.path.dirname(os.path.abspath(path))))
     for real, linked in program.components.items():
         if os.path.dirname(real) == home and flat is not None:
-            return flat_values(flat, linked.parameters, linked).layer
+            return flat_values(flat, linked.parameters, linked)
     return None
 
 

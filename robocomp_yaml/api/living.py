@@ -8,8 +8,9 @@ analysis.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
+from robocomp_yaml.api.refusals import require_paths
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.garbage import uncollected
@@ -23,7 +24,8 @@ class LivingWorkspace:
     """The documents at some paths, on the disk or unsaved in an editor. Not for several threads at once; the working
     folder stays the same."""
 
-    def __init__(self, paths: Iterable[str] = (".",), include: Iterable[str] = ()) -> None:
+    def __init__(self, paths: Sequence[str] = (".",), include: Iterable[str] = ()) -> None:
+        require_paths(*paths)
         self.paths, self.include = tuple(paths), tuple(include)
         self._unsaved: dict[str, tuple[str, bytes]] = {}
         self._memory, self._files = Memory(), KeptFiles()
@@ -35,6 +37,7 @@ class LivingWorkspace:
 
     def edit(self, path: str, text: str | bytes | None) -> None:
         """Replaces the text of a document, whether or not the file exists. None: the file counts again."""
+        require_paths(path)
         real = Disk().real(path)
         if text is None:
             self._unsaved.pop(real, None)
@@ -48,11 +51,13 @@ class LivingWorkspace:
     def look(self, *paths: str, on_read: Callable[[str], None] | None = None) -> Workspace:
         """The documents at these paths, which may be others than those of this workspace, and all that they refer to.
         Does not notice changes on the disk since the last `refresh` or `load`."""
+        require_paths(*paths)
         with uncollected():
             return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
 
     def glance(self, path: str) -> list[Diagnostic]:
         """The diagnostics of a document by itself, of its syntax and shape. Nothing else is read."""
+        require_paths(path)
         with uncollected():
             return alone(path, self.unsaved, self._memory, self._files)
 

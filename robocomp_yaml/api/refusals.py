@@ -1,10 +1,12 @@
-"""Errors for unknown names, and for files that cannot be written."""
+"""Errors for unknown names, for paths that no file can have, and for files that cannot be written."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterable
 
 from robocomp_yaml.diag.errors import Refused, reason_of
+from robocomp_yaml.source.disk import Disk
 
 _MOST = 12  # names that a message lists
 
@@ -25,6 +27,29 @@ def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml")
 
         choices = f"choose one of {some(list(known), _MOST)}"
         raise Refused(f"{owner} has no {what} '{name}'{meant(name, known, choices)}")
+
+
+def require_paths(*paths: str) -> None:
+    """Raises Refused if no file can have one of these paths."""
+    for path in paths:
+        try:
+            is_possible = b"\0" not in os.fsencode(path)
+        except UnicodeEncodeError:
+            is_possible = False
+        if not is_possible:
+            raise Refused(f"{path!a} cannot be the path of a file")
+
+
+def include_folders(include: Iterable[str], disk: Disk | None = None) -> tuple[str, ...]:
+    """The folders of `include` or `-I`. Raises Refused if one is none."""
+    folders, disk = tuple(include), disk or Disk()
+    require_paths(*folders)
+    for folder in folders:
+        if not disk.has_folder(folder):
+            raise Refused(
+                f"'{folder}' is not a folder" if os.path.lexists(folder) else f"there is no folder '{folder}'"
+            )
+    return folders
 
 
 def cannot_write(path: str, error: OSError) -> Refused:

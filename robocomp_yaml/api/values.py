@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api import effective_values, which
 from robocomp_yaml.api.refusals import cannot_write, meant
+from robocomp_yaml.check.flat.configs import missing_values
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
@@ -111,8 +112,9 @@ class Values:
         program = self._analysis.program
         self._linked: LinkedValues | None = program.values.get(os.path.realpath(file))
         self._replacing: LinkedValues | None = None
-        if self._is_flat:
-            self._linked = effective_values.flat_layer(file, program)
+        self._flat = effective_values.flat_file(file, program) if self._is_flat else None
+        if self._flat is not None:
+            self._linked = self._flat.layer
         elif self._linked is not None:
             self._replacing = effective_values.replacing(self._linked, program)
         if self._linked is None and kind_of(file) == "ddsl":
@@ -130,8 +132,10 @@ class Values:
             own = {layer.document.path for layer in linked.layers()}
             others = {one.document.path for one in self._analysis.program.values.values()} - own
             diagnostics = [one for one in diagnostics if one.span.file not in others]
-            if linked.parameters is not None and not self._is_flat and check.is_only_a_layer(linked):
+            if linked.parameters is not None and self._flat is None and check.is_only_a_layer(linked):
                 diagnostics += check.check_document(linked, self._analysis.program, complete=True)
+            if self._flat is not None:
+                diagnostics += missing_values(self._flat, self._analysis.program)
         return in_order(self._analysis.redacted(diagnostics))
 
     @property

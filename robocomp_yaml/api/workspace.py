@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.api.refusals import require_paths
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
@@ -69,6 +70,7 @@ class Workspace:
         from robocomp_yaml.api.compile_stamps import CompileArguments
         from robocomp_yaml.api.compiling import Compilation
 
+        require_paths(*([output] if output is not None else []))
         arguments = CompileArguments(self._paths, self._include, output, targets, standalone)
         return Compilation(self.analysis, arguments, adopt=adopt, merge=merge)
 
@@ -130,6 +132,7 @@ class Workspace:
         network readable; if they do not, and a path is passed, the network is that of the running processes."""
         from robocomp_yaml.api.deploying import Deployment
 
+        require_paths(path)
         document = path if path and lenient else self._deployment_at(path)
         return Deployment(self.analysis, document, engine, lenient=lenient)
 
@@ -187,6 +190,7 @@ class Workspace:
 
     def _deployment_at(self, path: str) -> str:
         """The path of the deployment that is meant, if errors leave a network."""
+        require_paths(path)
         deployments = self.analysis.program.deployments
         top = {real for real, linked in deployments.items() if not linked.is_included}
         candidates = {os.path.realpath(path)} if path else top
@@ -206,6 +210,7 @@ class Workspace:
         from robocomp_yaml.api import which
         from robocomp_yaml.api.values import Values
 
+        require_paths(path)
         real = {os.path.realpath(known) for known in self._overlay}
         document = path if os.path.realpath(path) in real else which.values(path)
         return Values(document, self._include, self._overlay)
@@ -216,7 +221,7 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.addresses import clashes
-            from robocomp_yaml.check.flat.configs import replaced
+            from robocomp_yaml.check.flat.configs import missing, replaced
             from robocomp_yaml.emit.specific import existing_code
 
             program = analysis.program
@@ -227,6 +232,7 @@ class Workspace:
 
             part = "flat configs", analysis.discovered.documents
             yield from program.memory.result(part, (analysis.undeployed,), of_flat_configs)
+            yield from missing(program)
             if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 

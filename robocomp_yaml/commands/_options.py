@@ -14,14 +14,27 @@ import msgspec
 from robocomp_yaml.commands import _plugin_choices
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
-from robocomp_yaml.diag.errors import reason_of
+from robocomp_yaml.diag.errors import Refused, reason_of
 from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read too fast for a progress bar
 
 paths = click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path(exists=True))
+
+
+def _folders(ctx: click.Context, param: click.Parameter, folders: tuple[str, ...]) -> tuple[str, ...]:
+    if folders:
+        from robocomp_yaml.api.refusals import include_folders
+
+        try:
+            return include_folders(folders)
+        except Refused as error:
+            raise click.BadParameter(str(error)) from None
+    return folders
+
+
 include = click.option(
-    "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
+    "-I", "--include", multiple=True, metavar="DIR", type=click.Path(file_okay=False), callback=_folders,
     help="Also search DIR for imports; may be repeated.",
 )  # fmt: skip
 

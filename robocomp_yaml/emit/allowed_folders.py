@@ -11,8 +11,10 @@ from collections.abc import Iterator, Sequence
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.build import Build
 from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.source.file_names import with_document
 from robocomp_yaml.source.inside import is_inside
 from robocomp_yaml.source.real_paths import RealPaths
 
@@ -37,12 +39,17 @@ class AllowedFolders:
 
 
 def _outside(document: str, root: str, folders: Sequence[str]) -> Diagnostic:
-    named = " and ".join(os.path.realpath(folder) for folder in folders)
+    reals = [os.path.realpath(folder) for folder in folders]
+    named = " and ".join(reals)
+    if any(is_inside(real, os.path.realpath(os.path.dirname(document))) for real in reals):
+        advice = "remove the link that leads there"  # the document may be compiled already
+    else:
+        advice = f"to write there, run `{typed('rcyaml', 'compile', with_document(document))}`"
     return codes.OUTSIDE.at(
         Span(document),
         path=os.path.normpath(root),
         reason=f"{os.path.realpath(root)} is not below {named}",
-        hint=f"to write there, run `rcyaml compile {document}`, or set the output folder with -o DIR",
+        hint=f"{advice}, or set the output folder with -o DIR",
     )
 
 

@@ -102,7 +102,13 @@ class DeploymentNames(msgspec.Struct):
         tie(source, broken=True)
         hides = any(isinstance(target, LinkedGroup) and target.broken for target in targets)
         if part.is_whole and not hides:
-            self._unknown(part, name, where, self._hint(part, name.text, source.name))
+            written, entries = _as_written(part, name), [entry.name for entry in part.document.entries]
+            is_instance = isinstance(source, LinkedInstance) and source.number is not None
+            if is_instance and INDEX in written.text and written.text not in entries:  # in all instances alike
+                hint = did_you_mean(written.text, [one for one in entries if INDEX in one])
+                self._unknown(part, written, where, hint if hint.meant else self._hint(part, name.text, source.name))
+            else:
+                self._unknown(part, name, where, self._hint(part, name.text, source.name))
         return None
 
     def _unknown(self, part: ExpandedDocument, name: Text, where: str, hint: Hint) -> None:
@@ -120,6 +126,12 @@ class DeploymentNames(msgspec.Struct):
             if scope + name != own
         ]
         return did_you_mean(text, names)
+
+
+def _as_written(part: ExpandedDocument, name: Text) -> Text:
+    """The name as it is in the document, in which {i} may stand for the number of the instance."""
+    texts = (text for entry in part.document.entries for text in (*entry.after, entry.target))
+    return next((text for text in texts if text is not None and text.span == name.span), name)
 
 
 def _kind_of(targets: tuple[Target, ...]) -> str:

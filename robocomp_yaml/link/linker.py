@@ -212,8 +212,13 @@ class Linker(msgspec.Struct):
                 hint = Hint(f"write '{name}'", imported.stem, name, safe=True)
                 self.diagnostics.append(codes.IMPORT_CASE.at(imported.span, name=imported.text, found=name, hint=hint))
             if target.real in documents or target.real == document.real:
+                # A component cannot import itself: it is no module.
+                why = "is this document itself" if target.real == document.real else "is already imported"
+                facts = {"problem": why} if codes is idsl else {}
                 fix = removal(imported.span)
-                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[fix]))
+                self.diagnostics.append(
+                    codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, **facts, fixes=[fix])
+                )
                 continue
             documents[target.real] = target
             if not isinstance(target.model, Module):
@@ -327,6 +332,8 @@ def _may_be_missing(linked: LinkedComponent) -> bool:
 def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], others: set[str]) -> Hint:
     """The hint at an unknown interface; `others` are the interfaces in the same list."""
     name = use.interface.rpartition(".")[2]
+    if name == "CommonBehavior" and use in linked.component.implements:
+        return Hint("remove it: every component implements CommonBehavior")
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:

@@ -58,7 +58,7 @@ def _language(root: Mapping) -> model.Language:
             text(node, "name"),
             None if standard is None else int(standard),
             span=node.span,
-            standard_span=span_of(node, "standard"),
+            standard_span=node.entries["standard"][0].span if standard is not None else node.span,
         )
     assert isinstance(node, Scalar)
     return model.Language(node.lexeme, span=node.span)

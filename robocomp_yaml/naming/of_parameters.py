@@ -22,6 +22,7 @@ from robocomp_yaml.parameters.specification.expression import (
     parse,
     parts,
 )
+from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -46,7 +47,7 @@ def collect(names: Names, program: Program) -> None:
         for rule in document.rules:
             _rule(tree, rule)
         for spelling in document.legacy:
-            tree.path(spelling.path, spelling.span)
+            tree.spelling(spelling)
         for member in document.parameters:
             tree.default(member)
     for parameters in program.parameters.values():
@@ -132,6 +133,15 @@ class ParameterTree:
                 return None
             spec, outer = made
         return (spec, outer) if spec is not None else None
+
+    def spelling(self, spelling: LegacySpelling) -> None:
+        """Uses the parameter that an entry of `legacy:` spells, and the members of its records."""
+        found = self.path(spelling.path, spelling.span)
+        spec, outer = found if found is not None else (None, ())
+        while spec is not None and spec.element is not None:
+            spec = spec.element
+        for name, span in spelling.members if spec is not None else ():
+            self.step(spec, outer, name, span)
 
     def values(self, node: Node | None, spec: TypeSpec | None = None, outer: tuple[str, ...] = ()) -> None:
         """Uses the keys of values, which are names of parameters, paths, or members of records."""

@@ -28,16 +28,19 @@ from robocomp_yaml.parameters.writing.sections import CLASSIC, FLAT_TOML, Proper
 from robocomp_yaml.semantics import connections, references
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.content import content
-from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.source.properties import entry_line, unset_line
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 
 if TYPE_CHECKING:
+    from robocomp_yaml.addresses.flat_values import FlatValues
+    from robocomp_yaml.network.set_values import SetValues
     from robocomp_yaml.parameters.editing.settings import ShownSetting
     from robocomp_yaml.parameters.layers.merge import MergedValue
     from robocomp_yaml.parameters.specification.document import ValuesDocument
 
 _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"
+_NOT_SET = "What the deployment replaces"
 _FILES = "Files, by their absolute paths"
 
 
@@ -120,7 +123,7 @@ class Configuration(msgspec.Struct):
         if base.flat is not None and base.is_own and linked is not None:
             lines, sections = self._on_own(base.flat, linked)
         elif base.flat is not None:
-            lines, sections = base.flat.text, self._on_flat(linked)
+            lines, sections = self._on_flat(base.flat, linked)
         elif linked is not None:
             sections = self._on_values(linked)
         else:
@@ -163,24 +166,39 @@ class Configuration(msgspec.Struct):
         if linked.broken:
             return "", None
         from robocomp_yaml.addresses.flat_values import flat_values
-        from robocomp_yaml.parameters.layers.merge import merged
 
-        below = flat_values(flat, linked, self.draft.instance.component).layer
-        if not self._judged(linked, below):
+        below = flat_values(flat, linked, self.draft.instance.component)
+        if not self._judged(linked, below.layer):
             return "", None
-        dialect = self.base.dialect
-        made = [Section(_TITLE, self._connections(dialect)), Section(_FILES, list(_absolute(flat)))]
-        made += self._set(linked, merged(below), dialect)
-        written = {each.key for section in made for each in section.properties}
+        found = self._set(linked, below)
+        files = [one for one in _absolute(flat) if one.key not in found.replaced]
+        made = [Section(_TITLE, self._connections(self.base.dialect)), Section(_FILES, files)]
+        made.append(Section(_PARAMETERS, found.properties))
+        written = {each.key for section in made for each in section.properties} | found.replaced
         kept = [entry_line(key, value) for key, value in flat.properties.items() if key not in written]
         return "".join(f"{line}\n" for line in ["", f"# As in {os.path.basename(flat.path)}.", *kept]), made
 
-    def _on_flat(self, linked: LinkedParameters | None) -> list[Section] | None:
-        """The properties that follow a flat config, which is used as it is."""
+    def _on_flat(self, flat: FlatConfig, linked: LinkedParameters | None) -> tuple[str, list[Section] | None]:
+        """The flat config as it is, and the properties that follow it."""
         made = [Section(_TITLE, self._connections(self.base.dialect))]
         if linked is None or self.draft.instance.entry.settings is None:
-            return made
-        return None if linked.broken else [*made, *self._set(linked, None, self.base.dialect)]
+            return flat.text, made
+        if linked.broken:
+            return "", None
+        from robocomp_yaml.addresses.flat_values import flat_values
+        from robocomp_yaml.parameters.layers.effective import document_faults
+
+        component = self.draft.instance.component
+        below = flat_values(flat, linked, component)
+        if document_faults(below.layer, linked):  # the file may be of any format, and nobody judges it
+            below = flat_values(replace(flat, text="", entries={}), linked, component)
+        found = self._set(linked, below)
+        unset = sorted(found.replaced - {one.key for one in found.properties})
+        text = flat.text
+        if unset:
+            lines = ["", f"# {_NOT_SET}.", *map(unset_line, unset)]
+            text = text.removesuffix("\n") + "".join(f"\n{line}" for line in lines) + "\n"
+        return text, [*made, Section(_PARAMETERS, found.properties)]
 
     def _judged(self, linked: LinkedParameters, below: LinkedValues) -> bool:
         """Whether the layers of `set:` and of the base have no problems."""
@@ -198,24 +216,20 @@ class Configuration(msgspec.Struct):
         self.diagnostics += found
         return values is not None
 
-    def _set(self, linked: LinkedParameters, below: MergedValue | None, dialect: str) -> list[Section]:
+    def _set(self, linked: LinkedParameters, below: FlatValues) -> SetValues:
         """The properties of `set:` on a flat config."""
+        from robocomp_yaml.network.set_values import SetValues, set_values
+        from robocomp_yaml.parameters.layers.merge import merged
+
         settings = self.draft.instance.entry.settings
         if settings is None:
-            return []
-        from robocomp_yaml.parameters.layers.effective import document_faults
-        from robocomp_yaml.parameters.layers.merge import data_of, merged
-        from robocomp_yaml.parameters.writing.write import Writer
-
-        layer = LinkedValues(self._document(self._parameters(linked, settings, below)), parameters=linked)
-        self.diagnostics += document_faults(layer, linked)
+            return SetValues()
+        layer = self._document(self._parameters(linked, settings, merged(below.layer)))
         if any(fault.severity == "error" for fault in self.diagnostics):
-            return []
-        root, place = linked.parameters.root, merged(layer)
-        writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)
-        section = Section(_PARAMETERS, writer.write(data_of(place, root), place))
-        self.diagnostics += writer.faults
-        return [section]
+            return SetValues()
+        found = set_values(linked, below, layer, quote=self.base.dialect == FLAT_TOML)
+        self.diagnostics += found.faults
+        return found
 
     def settings(self) -> list[ShownSetting]:
         """The values of the configuration, with their origin."""

@@ -15,10 +15,15 @@ from .paths import unescaped
 from .plain import PlainKind, TextKind
 from .spellings import Spelling
 
+ROBOCOMP = {"period.compute": "Period.Compute", "period.emergency": "Period.Emergency"}
+"""Parameters that every component has, with the names that RoboComp's tool writes, which count if the parameter has no
+property of its own name. Readers in other languages have the same table."""
+
 
 class PropertyReader:
-    """Reads a set of properties. `used` are the keys that it has read. `follow` returns the value of a text, which may
-    be a reference. `known` are plain values by their paths, which are used instead of their texts."""
+    """Reads a set of properties. `used` are the keys that it has read, by the names in documents. `follow` returns the
+    value of a text, which may be a reference. `known` are plain values by their paths, which are used instead of their
+    texts."""
 
     def __init__(
         self,
@@ -46,6 +51,8 @@ class PropertyReader:
 
     def _get(self, key: str) -> str | None:
         text = self._properties.get(key)
+        if text is None and key in ROBOCOMP:
+            text = self._properties.get(ROBOCOMP[key])
         if text is not None:
             self.used.add(key)
         return text

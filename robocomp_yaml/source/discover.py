@@ -15,6 +15,7 @@ from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source.disk import NOTHING, Disk, DiskRecord
+from robocomp_yaml.source.file_names import WORKSPACE_FILE as WORKSPACE_FILE
 
 SCRIPT = ".mock.yaml"
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
@@ -26,7 +27,6 @@ _MODELINE = re.compile(
 _HEAD = 4096  # bytes of a document, in which its first keys are
 _KEY = re.compile(r"^([a-z]+)[ \t]*:", re.MULTILINE)
 _SHOWN_BY = {"idsl": {"module"}, "ddsl": {"deployment"}, "cdsl": {"component", "language"}}
-WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+
+WORKSPACE_FILE = "rcyaml.yaml"
 LONGEST_NAME = 255
 LONGEST_PATH = 4095
 
@@ -9,6 +12,11 @@ LONGEST_PATH = 4095
 def is_deployment(path: str) -> bool:
     """Whether a document is a deployment."""
     return f"/{path}".endswith((".ddsl.yaml", "/ddsl.yaml"))
+
+
+def with_document(path: str) -> str:
+    """What a command takes as PATH to concern a document: the shared files of a workspace come with its folder."""
+    return os.path.dirname(path) or os.curdir if os.path.basename(path) == WORKSPACE_FILE else path
 
 
 def size(text: str) -> int:

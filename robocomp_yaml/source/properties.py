@@ -133,8 +133,13 @@ def entry_line(key: str, value: str) -> str:
     before = len(value) - len(value.lstrip(" ")) if inner else len(value)
     after = len(value) - before - len(inner)
     # Ice trims blanks at both ends; between other characters a blank needs no escape.
-    name, blank = _escaped(key).replace("=", "\\="), "\\ "
-    return f"{name}={blank * before}{_escaped(inner)}{blank * after}"
+    blank = "\\ "
+    return f"{_name(key)}={blank * before}{_escaped(inner)}{blank * after}"
+
+
+def unset_line(key: str) -> str:
+    """The line (without its end) after which Ice treats a property of earlier lines as not set."""
+    return f"{_name(key)}="
 
 
 def config_option(path: str) -> str:
@@ -143,6 +148,10 @@ def config_option(path: str) -> str:
         quoted = path.replace('"', '\\"')
         path = _escaped(f'"{quoted}"')
     return f"--Ice.Config={path}"
+
+
+def _name(key: str) -> str:
+    return _escaped(key).replace("=", "\\=")
 
 
 def _escaped(text: str) -> str:

@@ -21,6 +21,7 @@ from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source import missing_blank
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, not_plain
 
@@ -64,7 +65,7 @@ def _validator(kind: str, more: tuple[TargetLanguage, ...]) -> jsonschema_rs.Dra
 def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> list[Diagnostic]:
     """All errors of shape in a document, one diagnostic for each cause. `more` are the languages of plug-ins."""
     if not isinstance(root, Mapping):
-        return [codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
+        return [_without_blank(root) or codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
     validator = _validator(kind, more)
     if validator.is_valid(root.data):
         return []
@@ -117,6 +118,9 @@ def _explain(
             if kind.name == "pattern" and facts["pattern"] in _NEVER and isinstance(node, Scalar):
                 yield _impossible(facts["pattern"], node, instance_path, span=_span(node, key))
                 return
+            if kind.name == "type" and "object" in facts["types"] and (fault := _without_blank(node)) is not None:
+                yield fault
+                return
             problem = message or _in_words(kind.name, facts, node, instance_path)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
@@ -127,6 +131,14 @@ def _explain(
                 hint=_nearest(facts.get("options"), node),
                 fixes=_fixes(kind.name, facts, node, _subschema(whole, schema_path[:-1])),
             )
+
+
+def _without_blank(node: Node) -> Diagnostic | None:
+    """The diagnostic of a text such as `speed:2` where a mapping must be; None if the node is something else."""
+    if not isinstance(node, Scalar) or node.quoted or not isinstance(node.data, str):
+        return None
+    start, word = node.span, node.lexeme.split(" ")[0] if node.span.line != node.span.end_line else node.lexeme
+    return missing_blank.in_line(node.file, " " * (start.column - 1) + word, start.line)
 
 
 def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iterable[Fix]:

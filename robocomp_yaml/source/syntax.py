@@ -25,6 +25,7 @@ from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source import missing_blank
 
 MAX_DEPTH = 100
 
@@ -73,6 +74,10 @@ _MESSAGES = (
     ("undefined tag handle", "this tag is unknown", "quote a text that starts with '!'"),
 )
 
+_AFTER_A_MISSING_BLANK = (
+    "mapping values are not allowed", "could not find expected ':'", "expected <block end>",
+    "did not find expected key",
+)  # fmt: skip
 
 _LONG = 20_000  # characters
 
@@ -294,6 +299,10 @@ def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     if rest.startswith("{i}") and "expected ',' or" in problem:  # the instance number in a deployment
         hint = 'write "mouth{i}", with quotes'
         return codes.SYNTAX.at(span, problem="a text with {i} must be in quotes inside of brackets", hint=hint)
+    if any(part in problem for part in _AFTER_A_MISSING_BLANK):
+        found = missing_blank.in_lines(path, lines, line - 1)
+        if found is not None:
+            return found
     for part, message, hint in _MESSAGES:
         if part in problem:
             fixes = _quotes(span, lines[line - 1], column, part) if lines else ()

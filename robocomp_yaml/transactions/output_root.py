@@ -95,14 +95,18 @@ class Root:
             return PathStatus(exists=True, data=b"" if read else None)
 
     def _blocked(self, path: str) -> PathStatus:
-        """The status of a path of which a folder is not one, or is a link that leads out of the root."""
+        """The status of a path of which a folder is not one, or is a link that leads out of the root. The root itself
+        may be below a file."""
         for folder in folders_of(path):
             full = f"{self.real}/{folder}"
             if os.path.islink(full) and not self._is_inside(os.path.realpath(full)):
                 return PathStatus(problem=f"'{folder}' is a link to {os.readlink(full)}", culprit=folder)
-            if not os.path.isdir(full):
+            if os.path.lexists(full) and not os.path.isdir(full):
                 return PathStatus(problem=f"'{folder}' is not a folder", culprit=folder)
-        return PathStatus(problem=f"'{self.path}' is not a folder", culprit=".")
+        path = self.path
+        while not os.path.lexists(path) and (above := os.path.dirname(path)):
+            path = above
+        return PathStatus(problem=f"'{os.path.normpath(path)}' is not a folder", culprit=os.curdir)
 
     def _is_inside(self, real: str) -> bool:
         return is_inside(self.real, real)

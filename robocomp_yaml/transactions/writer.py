@@ -15,6 +15,7 @@ from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.file_names import with_document
 from robocomp_yaml.transactions import atomic, changes, manifest, settings
 from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
 from robocomp_yaml.transactions.desired import DesiredRoot, by_root
@@ -256,7 +257,8 @@ class _RootPlanner:
             self.diagnostics.append(codes.CHANGED_CONFIG.at(Span(self.root.shown(plan.path)), files=files, hint=hint))
 
     def _owner(self, path: str) -> str:
-        return self.root.shown(self.desired.files[path].owners[0])
+        """What `compile` takes to write a file."""
+        return with_document(self.root.shown(self.desired.files[path].owners[0]))
 
     def _not_planned(self, path: str, entry: ManifestEntry) -> None:
         """A file of the manifest that is not planned: it stays as long as one of its owners exists."""
@@ -317,7 +319,11 @@ class _RootPlanner:
         if status.culprit not in self.culprits:
             self.culprits.add(status.culprit)
             code = codes.OUTSIDE if status.outside else codes.CANNOT_WRITE
-            self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=status.problem))
+            if status.culprit == os.curdir and not status.outside:  # no file below the root can be written
+                code, path, shown = codes.CANNOT_WRITE, os.path.normpath(self.root.path), self.root.path
+            else:
+                shown = self.root.shown(path)
+            self.diagnostics.append(code.at(Span(shown), path=path, reason=status.problem))
 
     def _warn_edited(self, path: str, what: str) -> None:
         span = Span(self.root.shown(path))

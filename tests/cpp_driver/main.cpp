@@ -152,7 +152,8 @@ void answer(const runtime::Kind& kind, const Value& raw, bool isText)
 
 }
 
-/// `judge NAME JSON`: data for the member NAME. `read NAME JSON`: properties for it. `constraints JSON`: all values.
+/// `judge NAME JSON`: data for the member NAME. `put NAME JSON`: the same, as a component sets it. `read NAME JSON`:
+/// properties for it. `constraints JSON`: all values.
 int main()
 {
     const auto table = parameters::table();
@@ -184,6 +185,13 @@ int main()
         else if (command == "judge")
         {
             answer(runtime::group(members), Value::Map{{names, value}}, false);
+        }
+        else if (command == "put")
+        {
+            const auto kind = runtime::group(members);
+            Value data = Value::Map{};
+            runtime::put(kind, data, {names}, value);
+            answer(kind, data, false);
         }
         else
         {

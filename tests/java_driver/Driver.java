@@ -20,7 +20,10 @@ public final class Driver {
         this.text = text;
     }
 
-    /** `judge NAME JSON`: data for the member NAME. `read NAME JSON`: properties for it. `constraints JSON`: all values. */
+    /**
+     * `judge NAME JSON`: data for the member NAME. `put NAME JSON`: the same, as a component sets it. `read NAME JSON`:
+     * properties for it. `constraints JSON`: all values.
+     */
     public static void main(String[] arguments) throws Exception {
         BufferedReader in = new BufferedReader(new InputStreamReader(System.in, StandardCharsets.UTF_8));
         PrintStream out = new PrintStream(System.out, false, StandardCharsets.UTF_8);
@@ -37,6 +40,11 @@ public final class Driver {
                 Map<String, Object> data = new LinkedHashMap<>();
                 data.put(words[1], value);
                 out.println(answer(Kind.group(table.kind().members.get(words[1])), data, false));
+            } else if (words[0].equals("put")) {
+                Kind kind = Kind.group(table.kind().members.get(words[1]));
+                Map<String, Object> data = new LinkedHashMap<>();
+                Editing.put(kind, data, List.of(words[1]), value);
+                out.println(answer(kind, data, false));
             } else {
                 Map<String, String> properties = new LinkedHashMap<>();
                 map(value).forEach((key, item) -> properties.put(key, (String) item));

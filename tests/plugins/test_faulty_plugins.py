@@ -222,7 +222,14 @@ def test_a_check_that_gives_no_diagnostics(rcyaml: Run, site: Path, tmp_path: Pa
     assert [*found(rcyaml("check", "--format", "json"))] == ["RC0083"]
 
 
-@pytest.mark.parametrize("answer", ["network.nothing", "None", "{'a': 1}", "{'/etc/x': ''}", "{'../x': ''}"])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "network.nothing", "None", "{'a': 1}", "{'/etc/x': ''}", "{'../x': ''}", "{'b/': ''}",
+        "{'a/b.txt': '', 'a': ''}", "{'a': '', './a/b/../b/c.txt': ''}", "{'b': '', 'a/../b': ''}",
+        r"{'b': '', 'a\0': ''}", r"{'b': '', 'a': '\ud800'}",
+    ],
+)  # fmt: skip
 def test_an_export_that_fails(rcyaml: Run, site: Path, tmp_path: Path, answer: str) -> None:
     installed(site, "acme", {"exports/odd": "mod"}, {"mod.py": f"def export(network):\n    return {answer}\n"})
     workspace(tmp_path, "acme", **NETWORK)

@@ -122,10 +122,65 @@ def test_spelled_properties_are_read_alike(subjects: Subjects) -> None:
             assert _comparable(got) == _comparable(_as_python_reads(subjects.spelled, held)), held
 
 
+_A: Data = {"name": "a", "id": 7}
+NULLS: list[tuple[Data, Data | None]] = [
+    # What a component sets of the group `spelled`, and what it then has; None where it is refused.
+    ({"one": {"name": "a", "tag": None, "gain": None}}, {"one": _A}),
+    ({"one": {"name": "a", "id": None}}, {"one": _A}),
+    ({"one": None, "name": None, "id": 1}, {"id": 1}),
+    ({"plain": [{"name": "a", "tag": None}, {"name": "b", "id": 2, "tag": "t"}]},
+     {"plain": [_A, {"name": "b", "id": 2, "tag": "t"}]}),
+    ({"sizes": {"x": {"name": "a", "gain": None}, "y": None}}, {"sizes": {"x": _A}}),
+    ({"ids": None, "words": None}, {}),
+    ({"one": {"name": None}}, None),
+    ({"one": {"name": "a", "nam": None}}, None),
+    ({"plain": [None]}, None),
+    ({"ids": ["x", None]}, None),
+]  # fmt: skip
+
+
+def test_nothing_inside_a_value_that_is_set_is_the_default(subjects: Subjects) -> None:
+    """As null in a values document."""
+    answers = subjects.program.put([("spelled", data) for data, _ in NULLS])
+    for (data, expected), (got, problems) in zip(NULLS, answers, strict=True):
+        whole = {"spelled": data}
+        read, texts, refused = accessors.put(subjects.spelled, whole)
+        found = effective(values(linked(spellings.DOCUMENT), whole))[0]
+        assert bool(problems) == bool(refused) == (found is None) == (expected is None), (data, problems, refused)
+        if expected is not None:
+            assert found is not None
+            given = {key: value for key, value in read["spelled"].items() if value != [] and value != {}}
+            assert given == expected and read["spelled"] == found.data["spelled"], data
+            assert _comparable(got) == _comparable(_without_periods(texts)), data
+
+
+PERIODS: list[tuple[dict[str, str], tuple[int, int] | None]] = [
+    ({"Period.Compute": "20", "Period.Emergency": "30"}, (20, 30)),
+    ({"Period.Compute": "20", "period.compute": "10"}, (10, 500)),
+    ({"period.Compute": "20", "Period.compute": "20", "PERIOD.COMPUTE": "20"}, (100, 500)),
+    ({"Period.Compute": "0"}, None),
+]
+
+
+def test_the_names_of_robocomp_for_periods_are_read_alike(subjects: Subjects) -> None:
+    answers = subjects.program.read([("period", held) for held, _ in PERIODS])
+    of = linked({"parameters": {}}).parameters
+    for (held, expected), (got, problems) in zip(PERIODS, answers, strict=True):
+        read, refused = accessors.as_written(of, held)
+        assert bool(problems) == bool(refused) == (expected is None), (held, problems, refused)
+        if expected is not None:
+            assert read == {"period": dict(zip(("compute", "emergency"), expected, strict=True))}, held
+            assert list(map(int, (got["period.compute"], got["period.emergency"]))) == list(expected), held
+
+
 def _as_python_reads(of: Parameters, held: dict[str, str]) -> dict[str, str]:
     """Every plain value but the periods, which each component has."""
     entries = accessors.store(of, held).entries()
-    return {key: entry.text for key, entry in entries.items() if not key.startswith("period.")}
+    return _without_periods({key: entry.text for key, entry in entries.items()})
+
+
+def _without_periods(texts: dict[str, str]) -> dict[str, str]:
+    return {key: text for key, text in texts.items() if not key.startswith("period.")}
 
 
 def _comparable(texts: dict[str, str]) -> dict[str, object]:

@@ -30,10 +30,12 @@ MARKED = {
     ),
     "speech/speech.pdsl.yaml": (
         "component: speech.cdsl.yaml\ntypes:\n  «Voice»11: {enum: [low, high]}\n  «Wheel»24: {struct: {«speed»25: float}}\n"
-        "parameters:\n  «voice»12: {type: «Voice»11, default: low}\n  «camera»13: {group: {«width»14: {type: int, default: 1}}}\n"
+        "parameters:\n  «rows»33: {list: «Wheel»24, default: []}\n"
+        "  «voice»12: {type: «Voice»11, default: low}\n  «camera»13: {group: {«width»14: {type: int, default: 1}}}\n"
         "  «wheels»26: {list: «Wheel»24, default: [{«speed»25: 1}]}\n"
         "constraints:\n  - «camera»13.«width»14 < 7\n  - all(w.«speed»25 < «camera»13.«width»14 + 3 for w in «wheels»26)\n"
-        "legacy: {«camera»13.«width»14: Width}\n"
+        "legacy:\n  «camera»13.«width»14: Width\n  «wheels»26: {key: 'W{i}', columns: [«speed»25]}\n"
+        "  «rows»33: {fields: {«speed»25: 'r_{i}'}}\n"
     ),
     "speech/etc/config.yaml": (
         "component: ../speech.cdsl.yaml\nparameters: {«camera»13: {«width»14: 3}, «wheels»26: [{«speed»25: 2}]}\n"

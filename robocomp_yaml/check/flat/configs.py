@@ -67,6 +67,30 @@ def replaced(program: Program, components: Iterable[LinkedComponent]) -> Iterato
             yield codes.CHANGED_FLAT.at(Span(path), path=path, document=document, hint=hint)
 
 
+def missing(program: Program) -> Iterator[Diagnostic]:
+    """A warning for each value that a flat config which rcyaml wrote lacks. It is no error, because the value may be
+    given on the command line. Components that a deployment starts are judged there, with what it sets."""
+    instances = [one for linked in program.deployments.values() for one in linked.instances.values()]
+    deployed = {one.component.component.path for one in instances if one.component is not None}
+    for linked in sorted(program.components.values(), key=lambda linked: linked.component.path):
+        flat = None if linked.broken or linked.parameters.broken else own_configuration(linked, program).flat
+        if flat is not None and flat.is_written and linked.component.path not in deployed:
+            for fault in missing_values(flat_values(flat, linked.parameters, linked), program):
+                yield fault.as_severity(WARNING)
+
+
+def missing_values(found: FlatValues, program: Program) -> Iterator[Diagnostic]:
+    """The values without which a component does not start, unless other values are wrong, or misspelled."""
+    from robocomp_yaml.parameters.layers.effective import document_faults
+
+    parameters = found.layer.parameters
+    if parameters is not None and not parameters.broken and not document_faults(found.layer, parameters):
+        for fault in program.effective(found.layer)[1]:
+            is_misspelled = any(likeness(key, str(fault.fact("path"))) >= _NEAR for key in found.unread)
+            if fault.code == codes.MISSING.id and not is_misspelled:
+                yield replace(fault, fixes=())
+
+
 def _lines(flat: FlatConfig) -> Iterator[Diagnostic]:
     """The lines that Ice ignores, because they are no properties, or because a later line replaces them."""
     seen: dict[str, IceProperty] = {}
@@ -122,7 +146,7 @@ def _values(found: FlatValues, linked: LinkedComponent, program: Program) -> Ite
 
     root = linked.parameters.parameters.root
     faults = list(document_faults(found.layer, linked.parameters))
-    if not faults:  # missing values may come from elsewhere
+    if not faults:  # `missing` reports missing values, which may come from elsewhere
         faults = [one for one in program.effective(found.layer)[1] if one.code == codes.CONSTRAINT.id]
     # A fix edits documents, and this is none.
     yield from (replace(fault, fixes=()) for fault in faults)

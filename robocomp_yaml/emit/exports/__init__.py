@@ -6,7 +6,7 @@ A text that contains a configuration may contain secrets.
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -50,7 +50,33 @@ def _of_plugin(network: Network, form: str, plugin: Plugin, module: ModuleType) 
         files = module.export(network)
         if not isinstance(files, dict) or not all(isinstance(each, str) for item in files.items() for each in item):
             raise TypeError("it returns no dict of paths and texts")
-        for path in files:
-            if os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] in (os.pardir, os.curdir):
-                raise ValueError(f"'{path}' is not a relative path of a file")
+        _require_files(files)
     return files
+
+
+def _require_files(files: Mapping[str, str]) -> None:
+    """Raises ValueError if a file cannot be written, or not beside the others, so that none is."""
+    known: dict[str, str] = {}
+    for path, text in files.items():
+        real = os.path.normpath(path)
+        if os.path.isabs(path) or real.split(os.sep)[0] in (os.pardir, os.curdir) or path.endswith(os.sep):
+            raise ValueError(f"'{path}' is not a relative path of a file")
+        if "\0" in path or not (_is_encodable(path) and _is_encodable(text)):
+            raise ValueError(f"{path!a} has a character that no file can have")
+        if real in known:
+            raise ValueError(f"'{known[real]}' and '{path}' are the same file")
+        known[real] = path
+    for real, path in known.items():
+        folder = os.path.dirname(real)
+        while folder:
+            if folder in known:
+                raise ValueError(f"'{known[folder]}' is a file, and the folder of '{path}'")
+            folder = os.path.dirname(folder)
+
+
+def _is_encodable(text: str) -> bool:
+    try:
+        os.fsencode(text)
+    except UnicodeEncodeError:
+        return False
+    return True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_interface import doc, entries, items, span_of, text
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.specification.document import (
@@ -16,6 +17,7 @@ from robocomp_yaml.parameters.specification.document import (
     ValuesDocument,
 )
 from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
+from robocomp_yaml.semantics.spellings import placeholders
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
 
@@ -130,4 +132,21 @@ def _spelling(key: Scalar, node: Node) -> LegacySpelling:
         text(node, "count"),
         path=key.lexeme,
         span=key.span,
+        members=tuple(_members(node)),
     )
+
+
+def _members(node: Mapping) -> Iterator[tuple[str, Span]]:
+    """The members that a spelling names: in `columns`, as keys of `fields`, and in braces in `key`."""
+    for item in items(node, "columns"):
+        if isinstance(item, Scalar):
+            yield item.lexeme, item.span
+    for name, _ in entries(node, "fields"):
+        yield name.lexeme, name.span
+    key = node.get("key")
+    if not isinstance(key, Scalar):
+        return
+    for word in placeholders(key.lexeme):
+        if word != "i":  # the number of a row
+            at = key.lexeme.index(f"{{{word}}}") + 1
+            yield word, key.span.inside(key.lexeme, at, at + len(word))

@@ -158,7 +158,9 @@ class Writer(msgspec.Struct):
 
     def misread(self, text: str) -> str:
         """Why a property cannot hold a text, or ''."""
-        if any(char in text for char in "\r\n\0"):
+        if "\0" in text:
+            return "it contains a NUL"
+        if any(char in text for char in "\r\n"):
             return "it contains a line end"
         if reference := reference_of(text):
             return f"it would be read as a reference to {'a file' if FILE in reference else 'the environment'}"

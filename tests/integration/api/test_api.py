@@ -158,3 +158,59 @@ def test_values_have_two_forms_for_programs(tmp_path: Path) -> None:
     assert "a=2" in values.export() and "a = 2" in values.export("toml")
     with pytest.raises(api.Refused, match="choose ice or toml"):
         values.export("tmol")
+
+
+IMPOSSIBLE: dict[str, Callable[[str], object]] = {
+    "load": lambda path: api.load(path).check(),
+    "include": lambda path: api.load(include=[path]),
+    "overlay": lambda path: api.load(overlay={path: "x"}),
+    "follow": lambda path: api.follow(path),
+    "edit": lambda path: api.edit(path),
+    "living edit": lambda path: api.follow().edit(path, "x"),
+    "look": lambda path: api.follow().look(path),
+    "glance": lambda path: api.follow().glance(path),
+    "values": lambda path: api.load().values(path),
+    "deployment": lambda path: api.load().deployment(path),
+    "lenient deployment": lambda path: api.load().deployment(path, lenient=True),
+    "network": lambda path: api.load().network(path),
+    "output": lambda path: api.load().compile(output=path),
+    "migrate": lambda path: api.migrate(path),
+    "output of migrate": lambda path: api.migrate("speech", output=path),
+}
+
+
+@pytest.mark.parametrize("path", ["a\0b", "a\0b.cdsl.yaml", "a\ud800b"], ids=["NUL", "NUL in a name", "surrogate"])
+@pytest.mark.parametrize("call", IMPOSSIBLE)
+def test_a_path_that_no_file_can_have_is_refused(place: Path, call: str, path: str) -> None:
+    with pytest.raises(api.Refused, match="cannot be the path of a file"):
+        IMPOSSIBLE[call](path)
+
+
+@pytest.mark.parametrize(
+    ("folder", "said"),
+    [("nowhere", "there is no folder 'nowhere'"), ("robot.ddsl.yaml", "'robot.ddsl.yaml' is not a folder")],
+)
+def test_a_folder_of_imports_must_exist(place: Path, rcyaml: Rcyaml, folder: str, said: str) -> None:
+    for call in (api.load, api.follow, api.edit, api.migrate):
+        with pytest.raises(api.Refused, match=said):
+            call(include=["interfaces", folder])
+    result = rcyaml("check", "-I", folder)
+    assert result.exit_code == 2 and ("is a file" in result.stderr or said in result.stderr)
+
+
+def test_a_folder_of_imports_may_be_unsaved(place: Path) -> None:
+    unsaved = {"more/Face.idsl.yaml": "module: F\n", "x.cdsl.yaml": "component: X\nlanguage: python\nimports: [Face]\n"}
+    assert "RC1101" not in {one.code for one in api.load("x.cdsl.yaml", include=["more"], overlay=unsaved).check()}
+
+
+def test_apply_writes_what_no_error_blocks_and_the_files_for_editors(place: Path) -> None:
+    """As docs/api.md says."""
+    write_tree(place, {"bad/bad.cdsl.yaml": "component: BadComp\nlanguage: python\nimports: [Nope]\n"})
+    plan = api.load().compile()
+    assert plan.has_errors and plan.outcome.left_out == {"bad/bad.cdsl.yaml": True}
+    planned = {file.path for file in plan.files}
+    assert planned == {file.path for file in plan.apply().files}
+    found = read_tree(place)
+    assert planned <= found.keys() and not [path for path in found if path.startswith(("bad/generated", "bad/src"))]
+    for file in (".vscode/settings.json", ".rcyaml/schemas/cdsl.schema.json"):
+        assert file in found and file not in planned

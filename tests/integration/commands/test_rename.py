@@ -220,3 +220,15 @@ def test_a_location_is_relative_to_the_working_folder(
 def test_the_same_name_changes_nothing(ws: Path, rcyaml: Callable[..., Result]) -> None:
     ran = rcyaml("rename", "Arm.stop", "stop")
     assert (ran.exit_code, ran.stdout) == (0, "method stop has this name already\n")
+
+
+def test_a_member_in_a_legacy_spelling(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+    text = (
+        "types:\n  Row: {struct: {name: string, id: int, vel: float}}\n"
+        "parameters:\n  rows: {list: Row, default: []}\n  more: {list: Row, default: []}\n  keyed: {list: Row, default: []}\n"
+        'legacy:\n  rows: {key: "M{i}", columns: [name, id, vel]}\n'
+        '  more: {fields: {name: "n_{i}", id: "id_{i}", vel: "v_{i}"}}\n  keyed: {key: "K:{name}-{id}", columns: [vel]}\n'
+    )
+    (tmp_path / "a.pdsl.yaml").write_text(text)
+    assert rcyaml("rename", "a.pdsl.yaml:2:18", "title").exit_code == 0
+    assert (tmp_path / "a.pdsl.yaml").read_text() == text.replace("name", "title")

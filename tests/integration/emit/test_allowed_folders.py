@@ -72,3 +72,40 @@ def test_slice_stays_in_the_workspace(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"robot/rcyaml.yaml": "output: {slice: ../there}\n", "robot/M.idsl.yaml": MODULE})
     assert [file for file, _ in refused(rcyaml("compile", "robot", "--format", "json"))] == ["robot/M.idsl.yaml"]
     assert not (tmp_path / "there").exists()
+
+
+def told(result: Result) -> list[tuple[str, str, str]]:
+    found = json.loads(result.stdout)["diagnostics"]
+    return [(each["code"], each["message"], each["hint"]) for each in found]
+
+
+@pytest.mark.parametrize("blocked", ["runtime", "runtime/python", "runtime/python/generated"])
+def test_a_file_where_the_shared_run_time_must_be_is_named(blocked: str, rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": ARM, blocked: "mine\n"})
+    message = f"cannot write 'runtime/python/generated': '{blocked}' is not a folder"
+    assert told(rcyaml("compile", "--format", "json")) == [("RC6005", message, "")]
+    assert (tmp_path / blocked).read_text() == "mine\n"
+
+
+def test_a_file_of_the_user_in_the_shared_run_time_is_adopted_as_the_hint_says(rcyaml: Run, tmp_path: Path) -> None:
+    users = "runtime/python/generated/runtime/worker.py"
+    write_tree(tmp_path, {"w/rcyaml.yaml": "", "w/arm/arm.cdsl.yaml": ARM, f"w/{users}": "mine\n"})
+    ((code, _, hint),) = told(rcyaml("compile", "w", "--format", "json"))
+    assert (code, hint) == ("RC6001", "`rcyaml compile --adopt w` overwrites it, and keeps your file as .orig")
+    assert rcyaml("compile", "--adopt", "w").exit_code == 0
+    assert (tmp_path / f"w/{users}.orig").read_text() == "mine\n"
+
+
+def test_a_link_out_of_the_workspace_is_the_cause(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"w/rcyaml.yaml": "", "w/arm/arm.cdsl.yaml": ARM, "elsewhere/x": ""})
+    (tmp_path / "w/runtime").symlink_to(tmp_path / "elsewhere")
+    hint = "remove the link that leads there, or set the output folder with -o DIR"
+    assert refused(rcyaml("compile", "w", "--format", "json")) == [("w/rcyaml.yaml", hint)]
+
+
+def test_the_run_time_of_another_workspace_comes_with_its_folder(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"other/rcyaml.yaml": "", "other/arm/arm.cdsl.yaml": ARM, "robot/rcyaml.yaml": "",
+                          "robot/r.ddsl.yaml": DEPLOYMENT.replace("../arm", "../other/arm")})  # fmt: skip
+    hint = "to write there, run `rcyaml compile other`, or set the output folder with -o DIR"
+    assert ("other/rcyaml.yaml", hint) in refused(rcyaml("compile", "robot", "--format", "json"))
+    assert rcyaml("compile", "other").exit_code == 0

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
+from robocomp_yaml.api import load
+from robocomp_yaml.api.values import Values
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.pipeline import analyse
 
@@ -81,6 +83,19 @@ def test_what_a_component_reads_is_right(line: str) -> None:
     assert not found(f"{HEAD}{line}\n")
 
 
+@pytest.mark.parametrize("name", ["Period.Compute", "Period.Emergency"])
+def test_the_names_of_robocomp_for_periods_are_read(name: str) -> None:
+    assert not found(f"{HEAD}{name}=50\n")
+    (one,) = found(f"{HEAD}{name}=0\n")
+    assert (one.code, one.span.line, one.span.column) == ("RC3303", 2, len(name) + 2)
+
+
+@pytest.mark.parametrize("line", ["period.Compute=50", "Period.compute=50", "PERIOD.COMPUTE=50", "Period.Computer=50"])
+def test_other_spellings_of_periods_are_not_read(line: str) -> None:
+    (one,) = found(f"{HEAD}{line}\n")
+    assert (one.code, one.severity) == ("RC3301", "error") and "did you mean 'period.compute'?" in one.hint
+
+
 def test_a_property_of_ones_own_is_only_a_warning() -> None:
     (one,) = found(f"{HEAD}Vendor.Serial=A17\n")
     assert (one.code, one.severity) == ("RC3301", "warning") and "properties:" in one.hint
@@ -112,6 +127,51 @@ def test_constraints_are_judged_without_a_deployment() -> None:
     assert not found(f"{HEAD}side=right\nspeed=0.5\n", **{"arm.pdsl.yaml": pdsl})
     needed = pdsl.replace("default: 0.5, unit", "unit")
     assert not found(f"{HEAD}side=right\n", **{"arm.pdsl.yaml": needed}), "it may be set elsewhere"
+
+
+NEEDED = """\
+component: arm.cdsl.yaml
+types: {Joint: {struct: {name: string, max: float}}}
+parameters: {speed: float, grip: {group: {force: int}}, joints: {list: Joint, default: []}}
+"""
+
+
+def missing(flat: str, *paths: str, **others: str) -> list[tuple[str, str, str, int]]:
+    files = {"Face.idsl.yaml": FACE, "arm.cdsl.yaml": CDSL, "arm.pdsl.yaml": NEEDED, "etc/config": flat, **others}
+    write_tree(Path(), files)
+    shown = [one for one in load(*(paths or ["arm.cdsl.yaml"])).check() if one.code in ("RC3301", "RC3307")]
+    return [(one.severity, one.code, str(one.fact("path")), one.span.line) for one in shown]
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("", ["grip.force", "speed"]),
+        ("speed=1\n", ["grip.force"]),
+        ("speed=1\ngrip.force=\n", ["grip.force"]),
+        ("speed=1\ngrip.force=2\njoints.0.max=1\njoints.1.name=x\n", ["joints[1].max"]),
+        ("speed=${env:SPEED}\ngrip.force=2\n", []),
+    ],
+)
+def test_missing_values_are_reported_without_a_deployment(lines: str, expected: list[str]) -> None:
+    assert [(one[0], one[2]) for one in missing(f"{HEAD}{lines}")] == [("warning", path) for path in expected]
+    assert not missing(f"# mine\n{lines}"), "a file that rcyaml did not write is not judged"
+
+
+def test_a_misspelled_value_is_not_missing_as_well() -> None:
+    assert missing(f"{HEAD}sped=1\ngrip.force=2\n") == [("error", "RC3301", "sped", 2)]
+
+
+def test_what_a_deployment_starts_is_judged_with_what_it_sets() -> None:
+    deployment = "deployment: D\ncomponents: {arm: {component: ., set: {speed: 1}}}\n"
+    paths = ["arm.cdsl.yaml", "d.ddsl.yaml"]
+    assert missing(f"{HEAD}grip.force=2\n", *paths, **{"d.ddsl.yaml": deployment}) == []
+    assert missing(HEAD, *paths, **{"d.ddsl.yaml": deployment}) == [("error", "RC3307", "grip.force", 2)]
+
+
+def test_config_check_of_a_flat_config_needs_all_values() -> None:
+    assert missing(f"{HEAD}speed=1\n")
+    assert [(one.severity, one.code) for one in Values("etc/config").diagnostics] == [("error", "RC3307")]
 
 
 def test_no_fix_edits_it() -> None:

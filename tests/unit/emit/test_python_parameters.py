@@ -303,3 +303,20 @@ def test_awkward_names_and_texts() -> None:
     assert (live.composite_[0].int, live.set_, live.parameters.reading.from_, live.bool) == (3, "mro", 1, True)
     assert live.str == "\"\\' \u00e9 \x07"
     live.listen(print)
+
+
+def test_none_inside_a_value_is_the_default() -> None:
+    text = """\
+types: {Motor: {struct: {name: string, port: {type: string, optional: true}, vel: {type: float, default: 1}}}}
+parameters:
+  motors: {list: Motor, default: [], editable: true}
+  by: {map: Motor, default: {}, editable: true}
+"""
+    live = accessors.live(parameters(text)[0], {})
+    given = {"name": "a", "port": None, "vel": None}
+    live.change({"motors": [given], "by": {"x": given, "y": None}})
+    assert [(one.name, one.port, one.vel) for one in (*live.motors, *live.by.values())] == [("a", None, 1)] * 2
+    assert list(live.by) == ["x"] and given == {"name": "a", "port": None, "vel": None}, "it is left as it is"
+    for wrong in ([None], [{"name": None}], [{"name": "a", "prot": None}]):
+        with pytest.raises(ValueError, match="motors"):
+            live.set("motors", wrong)

@@ -104,6 +104,7 @@ def test_spellings(tmp_path: Path, parameters: str, expected: dict[str, str]) ->
     ("line", "fault"),
     [
         ('device: "a\\nb"', "device cannot be a property of Ice: it contains a line end"),
+        ('device: "a\\0b"', "device cannot be a property of Ice: it contains a NUL"),
         (
             'note: ""',
             "note cannot be a property of Ice: an empty optional value would be read as a missing one",

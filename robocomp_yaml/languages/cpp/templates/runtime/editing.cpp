@@ -41,14 +41,22 @@ std::pair<const Kind*, Value*> stepInto(const Kind& kind, Value& data, const std
     return {nullptr, nullptr};
 }
 
-/// Records and maps without members that are nothing.
+/// Records and maps without members that are nothing. An unknown member is rejected later.
 void removeNothing(const Kind& kind, Value& data)
 {
+    if (auto* items = data.as<Value::List>())
+    {
+        for (auto& item : *items)
+        {
+            removeNothing(kind.element ? *kind.element : kind, item);
+        }
+    }
     if (auto* map = data.as<Value::Map>())
     {
         for (auto each = map->begin(); each != map->end();)
         {
-            each = each->second.isNothing() ? map->erase(each) : std::next(each);
+            const bool isKnown = !kind.isRecord() || kind.member(each->first) != nullptr;
+            each = isKnown && each->second.isNothing() ? map->erase(each) : std::next(each);
         }
         for (auto& [key, item] : *map)
         {

@@ -44,6 +44,14 @@ bool isOfToml(const std::string& key)
         (beginsWith(key, "Proxies.") && !isPrefix);
 }
 
+/// The name that RoboComp's tool writes for a parameter that every component has; else the key.
+std::string byRoboComp(const std::string& key)
+{
+    static const Texts names{{"period.compute", "Period.Compute"}, {"period.emergency", "Period.Emergency"}};
+    const auto found = names.find(key);
+    return found == names.end() ? key : found->second;
+}
+
 std::string filled(std::string key, const std::string& number)
 {
     for (auto at = key.find("{i}"); at != std::string::npos; at = key.find("{i}", at + number.size()))
@@ -182,7 +190,11 @@ Value Reader::read(const Kind& kind)
 
 const std::string* Reader::get(const std::string& key)
 {
-    const auto found = properties_.find(key);
+    auto found = properties_.find(key);
+    if (found == properties_.end())
+    {
+        found = properties_.find(byRoboComp(key));
+    }
     if (found == properties_.end())
     {
         return nullptr;

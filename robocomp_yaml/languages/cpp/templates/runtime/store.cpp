@@ -62,13 +62,7 @@ std::vector<Problem> Store::problems(
 
 Store::Found Store::read(Texts properties, const Texts& overrides, const std::string& folder) const
 {
-    auto known = properties;
-    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own name
-    if (robocomp != properties.end())
-    {
-        known.emplace("period.compute", robocomp->second);
-    }
-    Reader reader(known, table_.spellings, folder);
+    Reader reader(properties, table_.spellings, folder);
     auto read = reader.read(table_.kind);
     std::set<std::string> used = reader.used();
     for (const auto& [key, text] : overrides)

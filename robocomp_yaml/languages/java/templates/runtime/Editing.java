@@ -30,7 +30,8 @@ final class Editing {
 
     /**
      * Sets the value at a path, or removes it if it is null; returns false for an unknown path. The index after the
-     * last element of a list appends an element.
+     * last element of a list appends an element. Members and entries inside the value that are null are removed, too, as
+     * in a document.
      */
     static boolean put(Kind kind, Object data, List<String> steps, Object value) {
         Kind at = kind;
@@ -42,7 +43,7 @@ final class Editing {
                 return false;
             }
             if (number == steps.size() - 1) {
-                set(holder, step, value);
+                set(holder, step, withoutNull(inner, value));
                 return true;
             }
             Object next = get(holder, step);
@@ -54,6 +55,28 @@ final class Editing {
             holder = next;
         }
         return false;
+    }
+
+    /** A copy of a value without members of records and entries of maps that are null. */
+    private static Object withoutNull(Kind kind, Object value) {
+        if (value instanceof Map<?, ?> map && (kind.isRecord() || kind.form == Kind.Form.MAP)) {
+            Map<Object, Object> made = new LinkedHashMap<>();
+            map.forEach((key, item) -> {
+                Member member = kind.isRecord() ? kind.members.get(key) : null;
+                if (kind.isRecord() && member == null) {
+                    made.put(key, item); // an unknown member is rejected later
+                } else if (item != null) {
+                    made.put(key, withoutNull(member == null ? kind.element : member.kind, item));
+                }
+            });
+            return made;
+        }
+        if (value instanceof List<?> list && kind.form == Kind.Form.LIST && !kind.element.isPlain()) {
+            List<Object> made = new ArrayList<>();
+            list.forEach(item -> made.add(withoutNull(kind.element, item)));
+            return made;
+        }
+        return value;
     }
 
     /** The type at a step, or null. */

@@ -19,6 +19,9 @@ import java.util.regex.Pattern;
  * Relative paths are resolved in `folder`; `known` are plain values by their paths, which are used unchanged.
  */
 final class Reader {
+    /** Parameters that every component has, with the names that RoboComp's tool writes. */
+    private static final Map<String, String> ROBOCOMP =
+        Map.of("period.compute", "Period.Compute", "period.emergency", "Period.Emergency");
     private static final Pattern HOLE = Pattern.compile("\\{([A-Za-z0-9_][A-Za-z0-9_-]*)\\}");
     private static final Pattern TOML = Pattern.compile("(?:Endpoints|Period|Agent)\\.|Proxies\\.(?!.*Prefix$)");
     private static final Pattern DIGITS = Pattern.compile("[0-9]+");
@@ -53,6 +56,9 @@ final class Reader {
 
     private String get(String key) {
         String text = properties.get(key);
+        if (text == null && ROBOCOMP.containsKey(key)) {
+            text = properties.get(ROBOCOMP.get(key));
+        }
         if (text != null) {
             used.add(key);
         }

@@ -164,11 +164,7 @@ public final class Store {
     }
 
     private Read read(Map<String, String> properties, Map<String, String> overrides, String folder) {
-        Map<String, String> known = new LinkedHashMap<>(properties);
-        if (properties.containsKey("Period.Compute")) { // RoboComp's own name
-            known.putIfAbsent("period.compute", properties.get("Period.Compute"));
-        }
-        Reader reader = new Reader(known, table.spellings(), folder, Map.of());
+        Reader reader = new Reader(properties, table.spellings(), folder, Map.of());
         Map<String, Object> read = reader.read(table.kind());
         overrides.forEach((key, text) -> {
             List<String> steps = Paths.parse(key);

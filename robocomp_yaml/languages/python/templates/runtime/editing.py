@@ -22,7 +22,8 @@ class Entry(NamedTuple):
 
 def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
     """Sets the value at a path, or removes it if `value` is None; returns False for an unknown path. The index after
-    the last element of a list appends an element."""
+    the last element of a list appends an element. Members and entries inside the value that are None are removed, too,
+    as null in a document."""
     for step in steps[:-1]:
         found = _step(kind, data, step)
         if found is None:
@@ -38,8 +39,24 @@ def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
     if value is None and isinstance(data, dict):
         data.pop(found[1], None)
     else:
-        data[found[1]] = value
+        data[found[1]] = _without_none(found[0], value)
     return True
+
+
+def _without_none(kind: Kind, value: Any) -> Any:
+    """A copy of a value without members of records and entries of maps that are None."""
+    if isinstance(kind, RecordKind) and isinstance(value, Mapping):
+        known = {key: member.kind for key, member in kind.members.items()}
+        return {
+            key: _without_none(known[key], item) if key in known else item  # an unknown member is rejected later
+            for key, item in value.items()
+            if item is not None or key not in known
+        }
+    if isinstance(kind, MapKind) and isinstance(value, Mapping):
+        return {key: _without_none(kind.element, item) for key, item in value.items() if item is not None}
+    if isinstance(kind, ListKind) and isinstance(value, (list, tuple)) and not isinstance(kind.element, PlainKind):
+        return [_without_none(kind.element, item) for item in value]
+    return value
 
 
 def _step(kind: Kind, data: Any, step: str) -> Any:

@@ -185,10 +185,7 @@ class Store:
     ) -> tuple[Any, dict[Path, str], Mapping[str, str]]:
         """Values, references, and the properties that are not parameters. `overrides` come from the command line; their
         keys are paths, whatever spelling the table has."""
-        known = {**properties}
-        if "Period.Compute" in properties:  # RoboComp's own name
-            known.setdefault("period.compute", properties["Period.Compute"])
-        reader = PropertyReader(known, self.table.spellings, lambda text: resolved(text, folder))
+        reader = PropertyReader(properties, self.table.spellings, lambda text: resolved(text, folder))
         read = reader.read(self.kind)
         for key, text in overrides.items():
             steps = parse(key)
