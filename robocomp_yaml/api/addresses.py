@@ -22,7 +22,6 @@ from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.component_references import stem
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
-from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.model.interface import Interface, Method
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process, is_loopback
 from robocomp_yaml.patterns import pattern
@@ -72,8 +71,8 @@ class Addresses:
         self, deployment: str = "", include: Sequence[str] = (), analysis: Analysis | None = None
     ) -> None:  # fmt: skip
         self._include = tuple(include)
-        self._root = root_above("") or "."
         chosen = os.path.normpath(which.deployment(deployment, self._include)) if deployment else ""
+        self._root = which.root_around(chosen)
         self.analysis: Analysis = analysis or analyse([self._root, *([chosen] if chosen else [])], include)
         self.program = self.analysis.program
         around = (which.deployments_of(folder, self._include, self.analysis) for folder in (".", self._root))

@@ -135,6 +135,15 @@ def deployment(path: str, include: tuple[str, ...]) -> str:
     return only_deployment(found)
 
 
+def root_around(document: str) -> str:
+    """The folder whose documents are read beside a deployment, '' for none: the workspace of the working folder, else
+    that of the deployment. The working folder can be any, with a hundred thousand folders below it."""
+    from robocomp_yaml.link.workspace import root_above
+
+    beside = os.path.dirname(document)
+    return root_above("") or (root_above(beside) or beside if document else "") or "."
+
+
 def _running_below(folder: str, running: Iterable[RegisteredDeployment]) -> list[str]:
     """The documents below a folder whose deployments run, though they are gone."""
     top = os.path.realpath(folder)
