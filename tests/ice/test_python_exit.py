@@ -12,7 +12,6 @@ import pytest
 from components import Build, Built
 from processes import Ports, Start, Storm
 from scenario import INTERFACES, cdsl
-from test_python_gui import BASES, OFFSCREEN
 from test_python_stop import WORKER
 
 IN_COMPUTE = "    def compute(self):\n        {}\n"
@@ -27,12 +26,8 @@ def port(free_port: Ports) -> int:
 
 @pytest.fixture
 def arm(build: Build, port: int) -> Built:
-    keys: dict[str, Any] = {
-        "implements": ["Arm"],
-        "period": "20 ms",
-        "parameters": {"speed": {"type": "float", "default": 1, "editable": True}},
-    }
-    built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("ArmComp", **keys)})["ArmComp"]
+    document = cdsl("ArmComp", implements=["Arm"], period="20 ms")
+    built = build({**INTERFACES, "a/a.cdsl.yaml": document})["ArmComp"]
     return built.configure({"Arm.Endpoints": f"tcp -h 127.0.0.1 -p {port}"})
 
 
@@ -59,7 +54,7 @@ def test_as_python_itself(arm: Built, start: Start, statement: str) -> None:
         "    def initialize(self):\n        sys.exit(5)\n",
         "    def __init__(self, *arguments):\n        sys.exit(5)\n",
         "    def initialize(self):\n        self.parameters.listen(lambda change: sys.exit(5))\n"
-        "        self.parameters.set('speed', 2)\n",
+        "        self.setPeriod(30)\n",
         "    def compute(self):\n        try:\n            sys.exit(5)\n        except Exception:\n            pass\n",
     ],
     ids=["initialize", "constructor", "listener", "compute"],
@@ -169,15 +164,12 @@ def test_a_served_method_with_another(arm: Built, start: Start, ice: Any, slices
 def test_a_listener_in_a_thread_of_ice(
     build: Build, start: Start, ice: Any, behavior: Any, free_port: Ports, slices: None
 ) -> None:
-    import RoboCompCommonBehavior
-
-    parameters = {"speed": {"type": "float", "default": 1, "editable": True}}
-    built = build({"a/a.cdsl.yaml": cdsl("One", parameters=parameters)})["One"]
+    built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("One")})["One"]
     served = free_port()
     built.configure({"CommonBehavior.Endpoints": f"tcp -h 127.0.0.1 -p {served}"})
     write(built, "    def initialize(self):\n        self.parameters.listen(lambda change: sys.exit('too fast'))\n")
     running = start(built.command).wait_for("One is running")
-    behavior(served).setParameterList({"speed": RoboCompCommonBehavior.Parameter(True, "2", "float")})
+    behavior(served).setPeriod(30)
     assert running.exit_code(2) == 1
     assert "ERROR One: too fast\n" in running.output
 
@@ -188,13 +180,8 @@ def test_a_topic(build: Build, start: Start, icestorm: Storm, free_port: Ports) 
     built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("One", **keys)})["One"]
     name = f"Exit{free_port()}"
     built.configure({"TopicManager.Proxy": icestorm.manager, "ArmEvents": name})
-    source = (built.root / "src" / "specificworker.py").read_text()
-    handler = next(line.split("def ")[1].split("(")[0] for line in source.splitlines() if "def ArmEvents_" in line)
-    event = handler.partition("_")[2]
-    methods = f"    def {handler}(self, *values):\n        sys.exit(9)\n"
-    methods += "    def compute(self):\n        from generated.component import COMPONENT\n"
-    methods += "        publisher = getattr(self, COMPONENT.publishes[0].accessor)\n"
-    write(built, methods + f"        publisher.{event}(*{{}}.get('{event}', (1,)))\n")
+    methods = "    def compute(self):\n        self.armevents_proxy.count(1)\n"
+    write(built, f"{methods}    def ArmEvents_count(self, n):\n        sys.exit(9)\n")
     running = start(built.command)
     assert running.exit_code() == 9, running.output
     assert "ends anyway" not in running.output
@@ -205,8 +192,9 @@ MACHINE: dict[str, Any] = {
     "statemachine": {
         "initial": "outer",
         "states": {
-            "outer": {"initial": "first", "states": {"first": {}, "second": {}}, "transitions": {"first": "second"}}
+            "outer": {"initial": "first", "states": {"first": {"entry": {"raise": "go"}}, "second": {}}}
         },
+        "transitions": {"first": {"to": "second", "event": "go"}},
     },
 }
 SAYS = "".join(
@@ -218,7 +206,7 @@ SAYS = "".join(
 @pytest.mark.parametrize("hook", ["sm_outer", "sm_first", "sm_second", "sm_second_period", "compute", "first_exit"])
 def test_a_state_machine(build: Build, start: Start, hook: str) -> None:
     """All states that are active are left, each once."""
-    built = build({"a/a.cdsl.yaml": cdsl("One", **MACHINE)})["One"]
+    built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("One", **MACHINE)})["One"]
     built.configure({})
     more = {"outer": "", "first": "", "second": ""}
     methods = "".join(f"    def sm_{name}(self): pass\n" for name in more)
@@ -236,44 +224,10 @@ def test_a_state_machine(build: Build, start: Start, hook: str) -> None:
 
 
 def test_a_state_machine_that_exits_while_it_stops(build: Build, start: Start) -> None:
-    built = build({"a/a.cdsl.yaml": cdsl("One", **MACHINE)})["One"]
+    built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("One", **MACHINE)})["One"]
     built.configure({})
     methods = "".join(f"    def sm_{name}(self): print('in {name}', flush=True)\n" for name in ("outer", "first", "second"))
     write(built, methods + SAYS.format(outer="", first="", second="        sys.exit(8)\n"))
     running = start(built.command).wait_for("in second")
     assert running.stop() == 8
     assert "left outer" in running.output and running.output.count("left second") == 1
-
-
-GUI = {
-    "a job in the window": "    def compute(self):\n        self.runInGui(sys.exit, {})\n",
-    "a job in the worker": "    def compute(self):\n        self.runInWorker(sys.exit, {})\n",
-    "the begin of the window": "    def initializeGui(self):\n        sys.exit({})\n",
-    "a slot": "    def initializeGui(self):\n        self.ui.button.clicked.connect(lambda: sys.exit({}))\n"
-    "    def compute(self):\n        self.runInGui(self.ui.button.click)\n",
-}
-
-
-@pytest.mark.parametrize("where", GUI)
-@pytest.mark.parametrize(("value", "code"), [("6", 6), ("'no screen'", 1), ("0", 0)])
-def test_a_window(window: Any, start: Start, where: str, value: str, code: int) -> None:
-    component, _ = window(BASES[0])
-    write(component, GUI[where].format(value))
-    running = start(component.command, env=OFFSCREEN)
-    assert running.exit_code() == code
-    assert "Traceback" not in running.output and "ends anyway" not in running.output
-    assert "terminate called" not in running.output
-    if code == 1:
-        assert "no screen" in running.output
-
-
-def test_a_slot_is_interrupted(window: Any, start: Start) -> None:
-    component, _ = window(BASES[0])
-    methods = "    def interrupt(self):\n        raise KeyboardInterrupt\n"
-    methods += "    def initializeGui(self):\n        self.ui.button.clicked.connect(self.interrupt)\n"
-    write(component, methods + "    def compute(self):\n        self.runInGui(self.ui.button.click)\n")
-    running = start(component.command, env=OFFSCREEN)
-    assert running.exit_code() == 0
-    assert "Traceback" not in running.output
-
-
