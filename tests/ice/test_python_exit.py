@@ -15,7 +15,15 @@ from scenario import INTERFACES, cdsl
 from test_python_stop import WORKER
 
 IN_COMPUTE = "    def compute(self):\n        {}\n"
-EXITS = ["sys.exit()", "sys.exit(0)", "sys.exit(5)", "sys.exit(-1)", "sys.exit(True)", "sys.exit('no camera')", "exit(7)"]
+EXITS = [
+    "sys.exit()",
+    "sys.exit(0)",
+    "sys.exit(5)",
+    "sys.exit(-1)",
+    "sys.exit(True)",
+    "sys.exit('no camera')",
+    "exit(7)",
+]
 EXITS += ["raise SystemExit", "raise SystemExit(6)", "sys.exit(2.5)", "sys.exit(['no', 'camera'])"]
 
 
@@ -191,9 +199,7 @@ MACHINE: dict[str, Any] = {
     "period": "20 ms",
     "statemachine": {
         "initial": "outer",
-        "states": {
-            "outer": {"initial": "first", "states": {"first": {"entry": {"raise": "go"}}, "second": {}}}
-        },
+        "states": {"outer": {"initial": "first", "states": {"first": {"entry": {"raise": "go"}}, "second": {}}}},
         "transitions": {"first": {"to": "second", "event": "go"}},
     },
 }
@@ -226,7 +232,9 @@ def test_a_state_machine(build: Build, start: Start, hook: str) -> None:
 def test_a_state_machine_that_exits_while_it_stops(build: Build, start: Start) -> None:
     built = build({**INTERFACES, "a/a.cdsl.yaml": cdsl("One", **MACHINE)})["One"]
     built.configure({})
-    methods = "".join(f"    def sm_{name}(self): print('in {name}', flush=True)\n" for name in ("outer", "first", "second"))
+    methods = "".join(
+        f"    def sm_{name}(self): print('in {name}', flush=True)\n" for name in ("outer", "first", "second")
+    )
     write(built, methods + SAYS.format(outer="", first="", second="        sys.exit(8)\n"))
     running = start(built.command).wait_for("in second")
     assert running.stop() == 8
