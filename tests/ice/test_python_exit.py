@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import time
 from typing import Any
 
 import pytest
@@ -102,10 +103,23 @@ def test_ctrl_c_with_a_library_that_handles_it(arm: Built, start: Start) -> None
     assert "Traceback" not in running.output
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_handler_of_the_user(arm: Built, start: Start, number: int) -> None:
+    """It runs in the main thread, which waits; a second signal does not interrupt the stop."""
+    before = f"import signal, sys\nsignal.signal({int(number)}, lambda *_: sys.exit(12))\n"
+    write(arm, "    def compute(self):\n        time.sleep(0.3)\n", before)
+    running = start(arm.command).wait_for("ArmComp is running")
+    running.process.send_signal(number)
+    time.sleep(0.1)
+    assert running.stop(number) == 12
+    assert "Traceback" not in running.output and "ends anyway" not in running.output
+
+
 @pytest.mark.parametrize("error", ["GeneratorExit", "asyncio.CancelledError", "ValueError"])
 def test_others_are_failures(arm: Built, start: Start, error: str) -> None:
     """An exception that is no Exception is a failure of one turn, as any other."""
-    methods = f"    n = 0\n    def compute(self):\n        self.n += 1\n        if self.n == 3:\n            sys.exit(4)\n        raise {error}\n"
+    methods = "    n = 0\n    def compute(self):\n        self.n += 1\n"
+    methods += f"        if self.n == 3:\n            sys.exit(4)\n        raise {error}\n"
     write(arm, methods, "import asyncio\n")
     running = start(arm.command)
     assert running.exit_code() == 4

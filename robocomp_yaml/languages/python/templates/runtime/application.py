@@ -77,6 +77,7 @@ class Application:
 
     def _end(self) -> None:
         """Stops everything in order, in the main thread."""
+        self._stopping.on_signals()  # handlers of the user's code, which may exit again, must not interrupt it
         self._stopping.request()
         self._stage.close()
         self._vitals.become(STOPPING)

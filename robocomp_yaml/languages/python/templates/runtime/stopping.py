@@ -13,8 +13,8 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 REQUEST = b"\0"  # no signal has this number
 WAKES = {REQUEST, *(bytes([number]) for number in SIGNALS)}
 GRACE = 1.5  # seconds from the request to the end of the process, even if a method does not return
-# By these, the user's code ends the component, wherever it runs. Others that are no Exception (a cancelled task, a panic
-# of Rust) are treated as one: they are the failure of one call or one turn.
+# By these, the user's code ends the component, wherever it runs. Others that are no Exception (a cancelled task, a
+# panic of Rust) are treated as one: they are the failure of one call or one turn.
 EXITS = (SystemExit, KeyboardInterrupt)
 
 
