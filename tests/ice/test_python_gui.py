@@ -197,6 +197,56 @@ def test_without_a_screen(window: Callable[..., tuple[Built, int]], start: Start
     assert "the window has no screen" in refused.output and refused.output.count("\n") == 1
 
 
+EXITING = """
+import sys
+
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initializeGui(self):
+        self.ui.button.clicked.connect(self.leave)
+        {begin}
+
+    def leave(self):
+        {slot}
+
+    def compute(self):
+        {turn}
+"""
+CLICK = "self.runInGui(self.ui.button.click)"
+
+
+@pytest.mark.parametrize(("statement", "code"), [("sys.exit(6)", 6), ("sys.exit('no screen')", 1), ("sys.exit()", 0)])
+@pytest.mark.parametrize(
+    ("begin", "turn", "slot"),
+    [
+        ("pass", CLICK, "{}"),
+        ("pass", "self.runInGui(self.leave)", "{}"),
+        ("pass", "self.runInWorker(self.leave)", "{}"),
+        ("self.leave()", "pass", "{}"),
+    ],
+    ids=["slot", "runInGui", "runInWorker", "initializeGui"],
+)
+def test_it_exits(
+    window: Callable[..., tuple[Built, int]], start: Start, statement: str, code: int, begin: str, turn: str, slot: str
+) -> None:
+    """In order, and with the code and the text of `sys.exit`, wherever that is called."""
+    component, _ = window("QWidget", EXITING.format(begin=begin, turn=turn, slot=slot.format(statement)))
+    running = start(component.command, env=OFFSCREEN)
+    assert running.exit_code() == code
+    assert "Traceback" not in running.output and "ends anyway" not in running.output
+    assert ("no screen\n" in running.output) == (code == 1)
+
+
+def test_a_slot_is_interrupted(window: Callable[..., tuple[Built, int]], start: Start) -> None:
+    code = EXITING.format(begin="pass", turn=CLICK, slot="raise KeyboardInterrupt")
+    component, _ = window("QWidget", code)
+    running = start(component.command, env=OFFSCREEN)
+    assert running.exit_code() == 0, "as after Ctrl-C"
+    assert "Traceback" not in running.output
+
+
 ROBOCOMP = """
 from PySide2.QtCore import QTimer
 from PySide2 import QtWidgets

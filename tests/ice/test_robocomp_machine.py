@@ -49,6 +49,19 @@ def test_python(
     assert "Startup check\n" in checking.output and "> " not in checking.output
 
 
+def test_python_exits(build: Build, start: Start, free_port: Ports, robocomps_qt: Mapping[str, str]) -> None:
+    """In order: the active state is left."""
+    robot = configured(build(documents("python"))["Robot"], free_port())
+    code = PYTHON.replace("        if self.turns < 3:\n            self.compute()\n", "        sys.exit(4)\n")
+    assert code != PYTHON
+    code += "\n    def sm_compute_exit(self):\n        self.say('left compute')\n"
+    (robot.root / "src" / "specificworker.py").write_text(code)
+    running = start(robot.command, env=robocomps_qt)
+    assert running.exit_code() == 4
+    assert running.output.count("> left compute\n") == 1 and "Traceback" not in running.output
+    assert "ends anyway" not in running.output
+
+
 @pytest.mark.parametrize("keys", [{}, {"gui": {"toolkit": "qt", "base": "QDialog"}}], ids=["alone", "window"])
 def test_the_skeleton_in_python(
     build: Build, start: Start, free_port: Ports, behavior: Behavior, robocomps_qt: Mapping[str, str],

@@ -138,3 +138,62 @@ def test_the_skeleton_runs(build: Build, start: Start, free_port: Ports, robocom
     running = start(built.command, env=robocomps_qt).wait_for("Any is running")
     assert running.stop() == 0
     assert "Traceback" not in running.output
+
+
+EXITING = """
+from genericworker import *
+
+
+class SpecificWorker(GenericWorker):
+    def __init__(self, proxy_map, startup_check=False):
+        super().__init__(proxy_map)
+        {first}
+        self.timer.timeout.connect(self.compute)
+        self.timer.start(20)
+
+    @QtCore.Slot()
+    def compute(self):
+        {turn}
+
+    def Arm_betray(self):
+        sys.exit(4)
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "turn", "code"),
+    [
+        ("pass", "sys.exit(4)", 4),
+        ("pass", "sys.exit('no camera')", 1),
+        ("pass", "raise KeyboardInterrupt", 0),
+        ("sys.exit(4)", "pass", 4),
+        ("sys.exit('no camera')", "pass", 1),
+    ],
+)
+def test_it_exits(
+    build: Build, start: Start, free_port: Ports, robocomps_qt: Mapping[str, str], first: str, turn: str, code: int
+) -> None:
+    """A slot, or the constructor: in order, with the code and the text of `sys.exit`."""
+    built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", compatibility="robocomp", implements=["Arm"])})["Any"]
+    built.configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
+    (built.root / "src" / "specificworker.py").write_text(EXITING.format(first=first, turn=turn))
+    running = start(built.command, env=robocomps_qt)
+    assert running.exit_code() == code
+    assert "Traceback" not in running.output and "ends anyway" not in running.output
+    assert ("no camera\n" in running.output) == (code == 1)
+
+
+def test_a_served_method_exits(
+    build: Build, start: Start, free_port: Ports, robocomps_qt: Mapping[str, str], ice: Any, slices: None
+) -> None:
+    import Ice
+    import RoboCompArm
+
+    built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", compatibility="robocomp", implements=["Arm"])})["Any"]
+    port = free_port()
+    built.configure({"Arm.Endpoints": f"tcp -p {port}"})
+    (built.root / "src" / "specificworker.py").write_text(EXITING.format(first="pass", turn="pass"))
+    running = start(built.command, env=robocomps_qt).wait_for("Any is running")
+    with pytest.raises(Ice.UnknownException, match="Arm_betray"):
+        RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:tcp -h 127.0.0.1 -p {port}")).betray()
+    assert running.exit_code(2) == 4

@@ -43,6 +43,7 @@ def package(folder: Path) -> Path:
     generated = folder / "generated"
     shutil.copytree(PYTHON, generated / "machine", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(SEMANTICS, generated / "runtime" / "semantics", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(PYTHON.parent / "runtime" / "stopping.py", generated / "runtime")
     for folder in (generated, generated / "runtime"):
         (folder / "__init__.py").touch()
     return generated

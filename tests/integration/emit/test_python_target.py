@@ -148,8 +148,8 @@ def test_the_run_time_needs_only_ice(folder: Path, beside: set[str]) -> None:
 
 # Of Python 3.9.
 STANDARD = set(
-    "__future__ collections contextlib ctypes dataclasses hmac ipaddress json logging math numbers operator os pathlib re "
-    "signal stat "
+    "__future__ atexit collections contextlib ctypes dataclasses hmac ipaddress json logging math numbers operator os "
+    "pathlib re signal stat "
     "subprocess sys tempfile threading time types typing".split()
 )  # fmt: skip
 

@@ -12,6 +12,7 @@ from generated.machine.events import Data, Event
 from generated.machine.model import ModelError
 from generated.machine.sessions import Sessions
 from generated.runtime.semantics.tables import Machine
+from generated.runtime.stopping import EXITS
 
 PROPERTY = "statemachine.state"
 
@@ -79,10 +80,17 @@ class StateMachine:
                 pass  # it is logged already
 
     def stop(self) -> None:
-        """Leaves all states."""
-        if self._session.interpreter.is_running:
-            self._session.interpreter.leave()
+        """Leaves all states, also those that were left in part when a method called sys.exit()."""
+        interpreter = self._session.interpreter
+        while interpreter.is_running or interpreter.configuration:
+            try:
+                interpreter.leave()
+            except EXITS as error:
+                self._exit(error)
         self._publish()
+
+    def _exit(self, error: BaseException) -> None:
+        self._worker._stopping.leave(error)
 
     def _publish(self) -> None:
         """Shows the states to tools: in CommonBehavior's parameters, and in Ice.Admin's properties."""
@@ -115,9 +123,12 @@ class StateMachine:
         self._worker.log.warning("state machine: %s", message)
 
     def _call(self, method: str) -> Any:
-        """Calls a method of the worker. An exception is logged, and becomes `error.execution` for the machine."""
+        """Calls a method of the worker. An exception is logged, and becomes `error.execution` for the machine. If the
+        method exits, the machine takes no more steps: the worker's thread ends, or Qt exits."""
         try:
             return getattr(self._worker, method)()
-        except Exception as error:
+        except EXITS:
+            raise
+        except BaseException as error:
             self._worker.log.exception("%s() failed", method)
             raise ModelError(f"{method}() failed: {type(error).__name__}") from None

@@ -85,7 +85,6 @@ class Interpreter:
         for number in sorted(self.configuration, reverse=True):
             self._leave(number)
             state = self.tree[number]
-            self.configuration.discard(number)
             if state.kind == "final" and state.parent == ROOT:
                 self.surroundings.finished(self._done_data(number))
         self.surroundings.ended()
@@ -173,7 +172,6 @@ class Interpreter:
                     self._history[child] = self._remembered(child, number)
         for number in sorted(left, reverse=True):
             self._leave(number)
-            self.configuration.discard(number)
         for transition in transitions:
             self.execute(transition.actions)
         self._enter(transitions)
@@ -193,10 +191,13 @@ class Interpreter:
 
     def _leave(self, number: int) -> None:
         state = self.tree[number]
-        self.surroundings.left(state)
-        for block in state.exit:
-            self.execute(block.actions)
-        self.surroundings.cancel_invoked(number, self)
+        try:
+            self.surroundings.left(state)
+            for block in state.exit:
+                self.execute(block.actions)
+            self.surroundings.cancel_invoked(number, self)
+        finally:
+            self.configuration.discard(number)  # once: also if the user's code exits
 
     def _enter(self, transitions: Iterable[Transition]) -> None:
         entry = EntrySet(self.tree, self._history, transitions)

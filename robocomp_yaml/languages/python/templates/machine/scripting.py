@@ -16,6 +16,7 @@ from typing import Any
 from generated.machine.events import Event
 from generated.machine.model import ModelError, NullModel
 from generated.runtime.semantics.tables import Machine, Value
+from generated.runtime.stopping import EXITS
 
 PROCESSOR = "http://www.w3.org/TR/scxml/#SCXMLEventProcessor"
 _FIRST_NAME = re.compile(r"\s*([^\W\d]\w*)")
@@ -80,7 +81,9 @@ class PythonModel(NullModel):
     def _evaluate(self, text: str) -> Any:
         try:
             return eval(compile(text.strip(), "<state machine>", "eval"), self._names)
-        except Exception as error:
+        except EXITS:
+            raise
+        except BaseException as error:
             raise ModelError(f"{text.strip()}: {type(error).__name__}: {error}") from error
 
     def _execute(self, code: str, value: Any) -> None:
@@ -89,7 +92,9 @@ class PythonModel(NullModel):
         self._names[_VALUE] = value
         try:
             exec(compile(code, "<state machine>", "exec"), self._names)
-        except Exception as error:
+        except EXITS:
+            raise
+        except BaseException as error:
             raise ModelError(f"{type(error).__name__}: {error}") from error
         finally:
             del self._names[_VALUE]

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import logging
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from typing import Any
 
-from generated.runtime.stopping import Stopping
+from generated.runtime.stopping import EXITS, Stopping
 from PySide6.QtCore import QCoreApplication, QObject, Qt, Signal
 
 Job = Callable[[], object]
@@ -33,15 +34,21 @@ class Loop(QObject):
         self._calls: set[Future[Any]] = set()
         self._over = False
         self._lock = threading.Lock()
+        self._watcher = threading.Thread(target=self._watch, name="window", daemon=True)
+        self._hook = sys.excepthook
+        sys.excepthook = self._uncaught
         self._woken.connect(self._execute, Qt.ConnectionType.QueuedConnection)
 
     def run(self) -> None:
         """Runs in the main thread until the component stops, or the user's code ends the loop."""
-        watch = threading.Thread(target=self._watch, name="window", daemon=True)
-        watch.start()
+        self._watcher.start()
         self._application.exec()
+
+    def close(self) -> None:
+        """Executes no more jobs, once the component stops; whoever waits for one gets CancelledError."""
         self._stopping.request()
-        watch.join()
+        if self._watcher.is_alive():
+            self._watcher.join()
         with self._lock:
             self._over = True
             calls, self._calls = self._calls, set()
@@ -82,10 +89,19 @@ class Loop(QObject):
                 job = self._jobs.popleft()
             try:
                 job()
-            except Exception:
+            except EXITS as error:
+                self._stopping.leave(error)
+            except BaseException:
                 self._log.exception("a job in the window's thread failed")
         if self._jobs:
             self._woken.emit()
+
+    def _uncaught(self, kind: type[BaseException], error: BaseException, trace: Any) -> None:
+        """PySide calls Python's hook for an exception in a slot, except for SystemExit: with that, Python exits."""
+        if isinstance(error, EXITS):
+            self._stopping.leave(error)
+        else:
+            self._hook(kind, error, trace)
 
 
 def _resolve(future: Future[Any], job: Callable[[], Any]) -> None:

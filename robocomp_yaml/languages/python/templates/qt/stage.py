@@ -24,6 +24,9 @@ class Stage(stage.Stage):
     def wait(self) -> None:
         self._loop.run()
 
+    def close(self) -> None:
+        self._loop.close()
+
     def create(self, worker_class: stage.WorkerClass, context: worker.Context) -> worker.Worker:
         """Creates the window before the user's code runs, and shows it before initialize(), which may take long."""
         created: Any = worker_class(context)

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 from generated.qt.loop import Loop
+from generated.runtime.stopping import EXITS
 from generated.runtime.worker import Worker
 from PySide6.QtWidgets import QWidget
 
@@ -46,6 +47,8 @@ class WindowWorker(Worker):
         while self._jobs and not self._stopping.is_requested():
             try:
                 self._jobs.popleft()()
-            except Exception:
+            except EXITS:
+                raise
+            except BaseException:
                 self.log.exception("a job in the worker's thread failed")
         return super()._between()

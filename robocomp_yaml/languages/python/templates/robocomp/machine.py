@@ -44,6 +44,9 @@ class StateMachine(driver.StateMachine):
             self._due.start(math.ceil(pause * 1000))
         return pause
 
+    def _exit(self, error: BaseException) -> None:
+        Stage.current.stopping.leave(error)
+
     def _awake(self) -> None:
         if self.isRunning():
             self.run()

@@ -72,6 +72,9 @@ class Stage(stage.Stage):
 
     def wait(self) -> None:
         self._loop.run()
+
+    def close(self) -> None:
+        self._loop.close()
         if self.machine is not None:
             self.machine.stop()
 

@@ -18,6 +18,8 @@ from itertools import count
 from types import ModuleType
 from typing import Any
 
+from generated.runtime.stopping import EXITS
+
 Job = Callable[[], object]
 
 
@@ -30,6 +32,7 @@ class _Loop:
         self._timers: list[tuple[float, int, QTimer, int]] = []
         self._numbers = count()
         self._over = False
+        self.exit: BaseException | None = None  # what a slot has raised in order to exit
 
     def post(self, job: Job) -> None:
         self._jobs.append(job)
@@ -48,6 +51,8 @@ class _Loop:
         while True:
             pause = self.turn()
             if self._over:
+                if self.exit is not None:
+                    raise self.exit
                 return 0
             self.wake_up.wait(pause)
             self.wake_up.clear()
@@ -74,9 +79,10 @@ LOOP = _Loop()
 def _execute(job: Job) -> None:
     try:
         job()
-    except SystemExit:
+    except EXITS as error:
+        LOOP.exit = error
         LOOP.quit()
-    except Exception:
+    except BaseException:
         logging.getLogger("worker").exception("a slot failed")
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
 from collections.abc import Callable
 
@@ -18,6 +19,7 @@ from generated.runtime.schedule import Schedule
 from generated.runtime.semantics import connections
 from generated.runtime.settings import Settings
 from generated.runtime.stage import Stage, WorkerClass
+from generated.runtime.stopping import EXITS, said
 from generated.runtime.topics import Topics
 from generated.runtime.vitals import FAILED, RUNNING, STARTING, STOPPING, Tally, Vitals
 from generated.runtime.waiting import Waiting, reason
@@ -40,10 +42,11 @@ class Application:
         self._settings = settings
         self._stopping = stopping
         self._log = stage.log
-        self._gate = servants.Gate(self._log)
+        self._gate = servants.Gate(self._log, stopping)
         self._topics: Topics | None = None
         table, live = parameters
         self._store = configuration.load(table, settings)
+        self._store.leave = stopping.leave
         self._parameters = live(self._store)
         self._vitals = Vitals(component.name)
         self._peers = Peers(stopping)
@@ -51,25 +54,41 @@ class Application:
         self._schedule = Schedule(component.period, stopping, self._vitals.turns)
         configuration.drive(self._schedule, self._store)
         self._communicator = Ice.initialize(_initialization(settings))
+        self._work_thread = threading.Thread(target=self._work, name="worker", daemon=True)
+        self._watch_thread = threading.Thread(target=self._watch_ice, name="shutdown", daemon=True)
 
     def run(self) -> int:
         """Runs the component until it is stopped; returns the exit code."""
-        work = threading.Thread(target=self._work, name="worker", daemon=True)
-        watch = threading.Thread(target=self._watch_ice, name="shutdown", daemon=True)
-        for thread in (work, watch):
-            thread.start()
-        self._stage.wait()
+        self._work_thread.start()
+        self._watch_thread.start()
+        atexit.register(self._exiting)
+        try:
+            self._stage.wait()
+        except EXITS as error:
+            self._stopping.leave(error)
+        atexit.unregister(self._exiting)
+        self._end()
+        return self._stopping.exit_code
+
+    def _exiting(self) -> None:
+        """Python exits, with its own exit code: Qt does that when a slot calls sys.exit(), inside of `wait`."""
+        self._stopping.request(1)  # only if a method does not return, because Python does not tell the code
+        self._end()
+
+    def _end(self) -> None:
+        """Stops everything in order, in the main thread."""
+        self._stopping.on_signals()  # handlers of the user's code, which may exit again, must not interrupt it
         self._stopping.request()
+        self._stage.close()
         self._vitals.become(STOPPING)
         self._gate.close()
-        work.join(0.5)
+        self._work_thread.join(0.5)
         if self._topics:
             self._topics.unsubscribe()
         self._communicator.destroy()
-        for thread in (work, watch):
+        for thread in (self._work_thread, self._watch_thread):
             thread.join()  # Python must not exit while one of its threads is in Ice
         self._stopping.done()
-        return self._stopping.exit_code
 
     def _watch_ice(self) -> None:
         """Ice.Admin's shutdown, which IceGrid uses, is a request to stop too."""
@@ -81,8 +100,20 @@ class Application:
 
     def _work(self) -> None:
         try:
+            self._live()
+        except EXITS as error:
+            self._stopping.leave(error)
+        finally:
+            self._stopping.request()
+
+    def _live(self) -> None:
+        try:
             running = self._start()
-        except Exception as error:
+        except EXITS as error:
+            if isinstance(error, SystemExit) and error.code not in (None, 0):
+                self._vitals.become(FAILED, why=said(error))
+            raise
+        except BaseException as error:
             if not self._stopping.is_requested():  # stopping may make the start fail
                 self._vitals.become(FAILED, why=f"{type(error).__name__}: {error}")
                 if isinstance(error, StartError):
@@ -96,8 +127,6 @@ class Application:
             else:
                 self._log.info("%s is running", self._component.name)
                 self._stage.run(running, self._schedule)
-        finally:
-            self._stopping.request()  # also if the user's code called sys.exit()
 
     def _start(self) -> worker.Worker:
         """Serves its own interfaces before it waits for others, so that two components may require each other."""

@@ -11,13 +11,13 @@ import Ice
 from generated.runtime import log
 from generated.runtime.errors import StartError
 from generated.runtime.settings import Settings
-from generated.runtime.stopping import Stopping
+from generated.runtime.stopping import EXITS, Stopping
 
 
 def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_check: bool) -> int:
     """Reads the config, loads the Slice and the user's code, and runs them; returns the exit code."""
     log.set_up()
-    stopping = Stopping()
+    stopping = Stopping(name)
     stopping.on_signals()
     try:
         settings = Settings(files, properties)
@@ -34,4 +34,7 @@ def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_che
     except Ice.LocalException as error:
         logging.getLogger(name).error("Ice cannot be initialized from %s: %s", settings.where, error)
         return 1
+    except EXITS as error:  # while the user's code is imported
+        stopping.leave(error)
+        return stopping.exit_code
     return application.run()

@@ -21,6 +21,7 @@ from generated.runtime.semantics.reading import PropertyReader
 from generated.runtime.semantics.references import referring, resolved
 from generated.runtime.semantics.secrecy import HIDDEN, shown
 from generated.runtime.semantics.spellings import Spelling
+from generated.runtime.stopping import EXITS
 
 
 @dataclass(frozen=True)
@@ -99,6 +100,7 @@ class Store:
         self.table = table
         self._lock = threading.Lock()
         self._listeners: list[Listener] = []
+        self.leave: Callable[[BaseException], None] = _pass_on  # called when a listener exits
         self._pending: deque[Change] = deque()
         self._notifying = threading.Lock()
         self._shown: Any = None
@@ -232,7 +234,9 @@ class Store:
                     for listener in tuple(self._listeners):
                         try:
                             listener(change)
-                        except Exception:
+                        except EXITS as error:
+                            self.leave(error)
+                        except BaseException:
                             logging.getLogger("parameters").exception("a listener failed")
             finally:
                 self._notifying.release()
@@ -240,3 +244,7 @@ class Store:
 
 def _is_within(path: Path, changed: list[tuple[Path, bool]]) -> bool:
     return any(path[: len(other)] == other for other, _ in changed)
+
+
+def _pass_on(error: BaseException) -> None:
+    raise error

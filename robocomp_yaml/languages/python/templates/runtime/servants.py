@@ -13,6 +13,7 @@ import Ice
 from generated.runtime import ice_threads
 from generated.runtime.log import ALREADY_LOGGED
 from generated.runtime.ports import Method
+from generated.runtime.stopping import EXITS, Stopping, said
 from generated.runtime.vitals import Tally
 from generated.runtime.worker import Worker
 
@@ -26,8 +27,9 @@ class Gate:
     for each other do not deadlock.
     """
 
-    def __init__(self, log: logging.Logger) -> None:
+    def __init__(self, log: logging.Logger, stopping: Stopping) -> None:
         self.log = log
+        self.stopping = stopping
         self.worker: Worker | None = None  # while calls may pass
         self._lock = threading.Lock()
         self._early: list[tuple[Call, Ice.Future]] = []
@@ -100,14 +102,15 @@ def _operation(method: Method, gate: Gate, first: Callable[[str], Tally]) -> Cal
         inputs = arguments[:-1]
         worker = gate.worker
         if worker is None:
-            return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, found))
-        return _call(worker, method, inputs, gate.log, found)
+            return gate.enter(lambda worker: _call(worker, method, inputs, gate, found))
+        return _call(worker, method, inputs, gate, found)
 
     return operation
 
 
-def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Logger, tally: Tally) -> Any:
-    """The result of the method. Declared exceptions are passed to the caller; others are logged."""
+def _call(worker: Worker, method: Method, inputs: Sequence[Any], gate: Gate, tally: Tally) -> Any:
+    """The result of the method. Declared exceptions are passed to the caller; others are logged. If the method exits,
+    the component stops, and the caller gets that as an error: Ice would never answer it."""
     begin = time.monotonic()
     try:
         result = getattr(worker, method.calls)(*inputs)
@@ -115,10 +118,12 @@ def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Lo
     except method.throws:
         tally.measure(begin, exception=True)
         raise
-    except Exception as error:
+    except BaseException as error:
         tally.measure(begin, failure=True)
-        log.exception("%s() failed", method.calls)
-        summary = " ".join(f"{method.calls}: {type(error).__name__}: {error}".split())
-        raise Ice.UnknownException(ALREADY_LOGGED + summary) from None
+        if isinstance(error, EXITS):
+            gate.stopping.leave(error)
+        else:
+            gate.log.exception("%s() failed", method.calls)
+        raise Ice.UnknownException(f"{ALREADY_LOGGED}{method.calls}: {said(error)}") from None
     tally.measure(begin)
     return result

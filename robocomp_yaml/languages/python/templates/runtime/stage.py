@@ -39,6 +39,9 @@ class Stage:
         """Waits in the main thread until the component stops."""
         self.stopping.wait()
 
+    def close(self) -> None:
+        """Called in the main thread after `wait`, or instead of its end when Python exits inside of it."""
+
     def create(self, worker_class: WorkerClass, context: worker.Context) -> worker.Worker:
         """Creates and initializes the worker, in the worker's thread."""
         created = worker_class(context)

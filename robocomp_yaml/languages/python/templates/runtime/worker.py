@@ -12,7 +12,7 @@ from typing import Any
 import Ice
 from generated.runtime.parameters import Live
 from generated.runtime.schedule import Schedule
-from generated.runtime.stopping import Stopping
+from generated.runtime.stopping import EXITS, Stopping
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,16 @@ class Worker:
 
 
 def run(worker: Worker, schedule: Schedule) -> None:
-    """Calls `compute()` until the component stops. An exception in `compute()` is logged, and the next turn follows."""
+    """Calls `compute()` until the component stops. An exception in `compute()` is logged, and the next turn follows.
+    If the user's code exits, the last hook is called, too."""
+    try:
+        _take_turns(worker, schedule)
+    except EXITS as error:
+        worker._stopping.leave(error)
+    worker._end()
+
+
+def _take_turns(worker: Worker, schedule: Schedule) -> None:
     turns = schedule.turns
     turns.busy()
     worker._begin()
@@ -94,8 +103,10 @@ def run(worker: Worker, schedule: Schedule) -> None:
         try:
             worker._turn()
             failure = False
-        except Exception:
+        except EXITS:
+            failure = False
+            raise
+        except BaseException:
             worker.log.exception("compute() failed")
         finally:
             turns.end(failure=failure)
-    worker._end()
