@@ -287,7 +287,8 @@ class _Starts(msgspec.Struct):
                     await self._engine.start(step.name)
                 if is_new or not (step.running and await self._is_ready(step.spec, step.running)):
                     others = [self._tasks[one] for one in self._circles.awaited.get(step.name, ())]
-                    await until_ready(self._engine, step.spec, lines, self._watch.of(step.name), others)
+                    state, restarts = self._watch.of(step.name), self._restarts_before(step)
+                    await until_ready(self._engine, step.spec, lines, state, others, restarts)
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
             return False
@@ -330,15 +331,20 @@ class _Starts(msgspec.Struct):
             self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
         else:
             within = f"{step.spec.process.ready.within:g}"
-            reason = await why_not(step.spec, running)
+            reason = await why_not(step.spec, running, self._restarts_before(step))
             self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=within, why=reason))
 
     async def _report_late(self, step: PlanStep) -> None:
         """Reports a process that was pending when the time limit expired."""
         assert step.spec
-        why = await why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
+        running = await self._watch.of(step.name)(time.monotonic() - RECENT)
+        why = await why_not(step.spec, running, self._restarts_before(step))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
+
+    def _restarts_before(self, step: PlanStep) -> int:
+        """The restarts of a process that goes on, before its wait began. A start counts anew."""
+        return step.running.restarts if step.running and step.name not in self._outcome.began else 0
 
     def _fail(self, name: str, reason: Diagnostic) -> None:
         self._outcome.failed[name] = reason

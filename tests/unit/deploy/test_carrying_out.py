@@ -51,6 +51,20 @@ def test_a_process_that_ends_right_after_it_was_ready_has_failed(state: str | No
     ]
 
 
+@pytest.mark.parametrize("is_late", [False, True])
+def test_an_end_before_this_up_is_not_why_a_process_is_not_ready(is_late: bool) -> None:
+    """It was restarted, and has been ready since; what fails now is something else."""
+    crashed = running(MOTORS, restarts=1, last_exit="exit code 3")
+    asked = replace(MOTORS, ready=replace(MOTORS.ready, within=9 if is_late else 0.2))
+    engine = InMemory(crashed, silent="motors")
+    result = engine.up(network(asked), seconds=0.2 if is_late else None)
+    assert result.outcome.failed["motors"].message == "'motors' was not ready within 0.2 s: `ask` did not succeed"
+    engine = InMemory(crashed, silent="motors")
+    engine.crashes = {"motors"}
+    result = engine.up(network(asked), seconds=0.2 if is_late else None)
+    assert "it ended in the meantime: exit code 4, after 1 restart" in result.outcome.failed["motors"].message
+
+
 def test_an_unchanged_process_goes_on() -> None:
     engine = InMemory(running(MOTORS), running(BASE))
     assert not engine.up(network(MOTORS, BASE)).diagnostics
