@@ -138,7 +138,8 @@ def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
 
     plan = data("plan")["plan"]
     assert [(step["name"], step["action"]) for step in plan] == [("base", "start"), ("arm", "start")]
-    assert data("up")["result"] == {"ready": ["base", "arm"], "failed": [], "skipped": [], "undone": ""}
+    result = {"ready": ["base", "arm"], "failed": [], "skipped": [], "undone": "", "not_restored": []}
+    assert data("up")["result"] == result
     processes = data("status")["processes"]
     assert all(one["ready"] and one["pid"] > 1 and one["memory"] > 0 for one in processes)
     lines = deploy(rcyaml, "logs", "base", "--format", "json").stdout.splitlines()

@@ -305,6 +305,7 @@ def test_a_failed_rollback_is_reported_at_the_location_in_the_document() -> None
     engine = InMemory(running(MOTORS), ending="motors")
     result = engine.up(network(replace(MOTORS, cwd="/tmp")), on_failure=ROLL_BACK)
     assert [found.span.line for found in result.diagnostics] == [len("motors")] * 2
+    assert result.not_restored == ["motors"]
     gone = InMemory(running(MOTORS), running(CAMERA), ending="motors arm")
     told = gone.up(network(ARM, CAMERA), on_failure=ROLL_BACK).diagnostics
     assert [(found.span.file, found.span.line) for found in told] == [("n.ddsl.yaml", 3), ("/n.ddsl.yaml", 1)]
