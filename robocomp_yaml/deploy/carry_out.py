@@ -16,7 +16,7 @@ from robocomp_yaml.deploy.circles import Circles, circles_in
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.levels import in_the_way, levels
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
-from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_it_serves, until_ready, unready
+from robocomp_yaml.deploy.readiness import RECENT, State, holds, unready, until_it_serves, until_ready
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done
 from robocomp_yaml.deploy.time_limit import TimeLimit
