@@ -61,6 +61,15 @@ def test_up_status_and_down(robot: Path, rcyaml: Rcyaml) -> None:
     assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
 
 
+def test_down_of_what_does_not_run_names_it(robot: Path, rcyaml: Rcyaml) -> None:
+    deploy(rcyaml, "up")
+    assert deploy(rcyaml, "down", "arm").stdout == "arm   stopped\n"
+    assert deploy(rcyaml, "down", "arm").stdout == "Robot: arm was not running\n", "base runs"
+    assert deploy(rcyaml, "down").stdout == "base  stopped\n"
+    assert deploy(rcyaml, "down", "arm", "base").stdout == "Robot: base, arm were not running\n"
+    assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
+
+
 COUNTS = """\
 deployment: Robot
 components:
