@@ -485,8 +485,9 @@ def test_the_deployment_of_another_user(
     """`status` of another user does not say that nothing runs, whether the document can be read or not."""
     (robot / "robot.ddsl.yaml").write_text(document)
     failed = rcyaml(*command.split(), "robot.ddsl.yaml")
-    assert failed.exit_code == 1 and "error[RC7005]" in failed.stderr and "not started" not in failed.stdout
+    assert failed.exit_code == 1 and "error[RC7005]" in failed.stderr and not failed.stdout
     assert f"it is of the user '{of_another_user}', who alone sees and changes what runs" in failed.stderr
+    assert "documents: " not in failed.stderr, "they are not at fault"
 
 
 def test_the_manager_of_the_deployment_of_another_user(robot: Path, of_another_user: str) -> None:
