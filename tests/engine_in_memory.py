@@ -53,7 +53,8 @@ def running(one: Process, state: str = RUNNING, **more: Any) -> Running:
 class InMemory:
     """`done` is what was asked of it, in order. Of the processes, `ending` end while they are started, `silent`
     never become ready, `blocked` cannot be started, which is seen before, those in `needing` are ready as long as
-    another one runs, and those in `brief` end as soon as they were ready, in a state, or are gone."""
+    another one runs, and those in `brief` end as soon as they were ready, in a state, or are gone. Those that are in
+    `crashes` end when they are asked, and are restarted."""
 
     name = "memory"
 
@@ -66,6 +67,7 @@ class InMemory:
         self.logs: dict[str, list[str]] = {}
         self.needing: dict[str, str] = {}
         self.brief: dict[str, str | None] = {}
+        self.crashes: set[str] = set()
 
     async def open(self, network: Network, *, create: bool) -> bool:
         return True
@@ -114,6 +116,10 @@ class InMemory:
             yield line
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
+        if name in self.crashes:
+            self.crashes.remove(name)
+            one = self.now[name]
+            self.now[name] = replace(one, restarts=one.restarts + 1, last_exit="exit code 4")
         needed = self.now.get(self.needing.get(name, name))
         is_ready = name not in self.silent and needed and needed.state == RUNNING
         if is_ready and name in self.brief:

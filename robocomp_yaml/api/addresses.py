@@ -13,7 +13,7 @@ import msgspec
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.api import which
 from robocomp_yaml.api.refusals import meant
-from robocomp_yaml.deploy import interfaces
+from robocomp_yaml.deploy import interfaces, listing
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.listing import some
@@ -67,9 +67,7 @@ class Addresses:
     default, it is the only one below the working folder, else of the workspace. `analysis` is that of the workspace, if
     it is there already."""
 
-    def __init__(
-        self, deployment: str = "", include: Sequence[str] = (), analysis: Analysis | None = None
-    ) -> None:  # fmt: skip
+    def __init__(self, deployment: str = "", include: Sequence[str] = (), analysis: Analysis | None = None) -> None:
         self._include = tuple(include)
         chosen = os.path.normpath(which.deployment(deployment, self._include)) if deployment else ""
         self._root = which.root_around(chosen)
@@ -273,6 +271,8 @@ class Addresses:
         if entries := self._entries_of(linked):
             listed = " or ".join(f"'{one}'" for one in entries)
             hint = f"its own address is meant here, and {self.path} runs it as {listed}: use that name, or {hint}"
+        elif gone := listing.hint_without_document(self._root):
+            hint = f"{gone}; or {hint}"
         return Peer(name, rest, tuple(doors), Span(path), hint, linked)
 
     def _entries_of(self, linked: LinkedComponent) -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import require
-from robocomp_yaml.deploy import folder, history, limits, operations, registered, renamed
+from robocomp_yaml.deploy import folder, history, limits, operations, ownership, registered, renamed
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import KILLED, DeployFailed, Line
@@ -373,7 +373,7 @@ class Deployment:
     def _run(self, work: Coroutine[Any, Any, T], *, change: bool = False) -> T:
         """Runs a call; `change` takes the lock of the deployment. Raises Faulty."""
         try:
-            folder.require_own(self.network.folder)
+            ownership.require(self.network)
             if not change:
                 return asyncio.run(work)
             renamed.refuse(self.network)

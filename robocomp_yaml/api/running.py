@@ -21,6 +21,7 @@ from robocomp_yaml.deploy.engine import DeployFailed, Running
 from robocomp_yaml.deploy.engines import make_engine
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.obstacles import elsewhere
+from robocomp_yaml.deploy.ownership import NotOwn
 from robocomp_yaml.deploy.preparing import prepared_for_run
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.single import SingleResult, SingleRun, moved
@@ -193,6 +194,8 @@ class Run:
             is_running = await engine.open(self.network, create=False)
             found = await engine.observe() if is_running else {}
             await engine.close()
+        except NotOwn:
+            found = {}  # what runs beside it has its ports, whoever started that
         finally:
             self._diagnostics += engine.notes
         return {name: one for name, one in found.items() if one.is_alive}

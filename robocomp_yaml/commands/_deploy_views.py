@@ -74,6 +74,9 @@ def result_text(network: Network, result: Result) -> str:
         return f"{network.name}: {_count(len(result.plan.of(START, RESTART, CHANGE, KEEP)))} as desired"
     if not result.undone:
         return f"{network.name}: nothing was changed"
+    if lost := result.not_restored:
+        not_ready = f"{', '.join(lost)} {'is' if len(lost) == 1 else 'are'} not ready"
+        return f"{network.name}: failed; the rollback failed, too: {not_ready}"
     after = {ROLL_BACK: "rolled back to what ran before", KEEP_GOING: "the started processes keep running"}
     return f"{network.name}: failed; {after.get(result.undone, 'the started processes were stopped')}"
 

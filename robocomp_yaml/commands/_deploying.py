@@ -208,7 +208,10 @@ class DeploySession(msgspec.Struct):
         if self.format_ == "json":
             self.end({"stopped": stopped})
         if not stopped:
-            terminal.say(f"{self.network.name}: nothing was running")
+            chosen = self.deployment.chosen(names)  # others may run
+            named = ", ".join(name for name in self.network.processes if name in chosen)
+            which = f"{named} {'was' if len(chosen) == 1 else 'were'} not" if chosen else "nothing was"
+            terminal.say(f"{self.network.name}: {which} running")
         self.end()
 
     def _stopping(self, names: Names) -> NoReturn:

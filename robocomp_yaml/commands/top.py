@@ -13,6 +13,7 @@ from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._ddsl import DocumentAnd, default_document, running_document
 from robocomp_yaml.commands._duration import Duration
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.errors import Faulty
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -69,8 +70,11 @@ def command(
         else:
             await _printed(samples, view, count, (opened.network.name, opened.engine) if format_ == "json" else None)
 
-    with _signals.hangup_handled():
-        sample(opened, *names, every=every, show=show)
+    try:
+        with _signals.hangup_handled():
+            sample(opened, *names, every=every, show=show)
+    except Faulty:
+        session.end()
 
 
 async def _printed(

@@ -15,8 +15,8 @@ import msgspec
 from robocomp_yaml.deploy.circles import Circles, circles_in
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.levels import in_the_way, levels
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, ill, in_order
-from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_it_serves, until_ready, why_not
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
+from robocomp_yaml.deploy.readiness import RECENT, State, holds, unready, until_it_serves, until_ready
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -287,7 +287,8 @@ class _Starts(msgspec.Struct):
                     await self._engine.start(step.name)
                 if is_new or not (step.running and await self._is_ready(step.spec, step.running)):
                     others = [self._tasks[one] for one in self._circles.awaited.get(step.name, ())]
-                    await until_ready(self._engine, step.spec, lines, self._watch.of(step.name), others)
+                    state, restarts = self._watch.of(step.name), self._restarts_before(step)
+                    await until_ready(self._engine, step.spec, lines, state, others, restarts)
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
             return False
@@ -323,22 +324,22 @@ class _Starts(msgspec.Struct):
             await asyncio.sleep(-(time.monotonic() + pause) % _TICK + pause)
             running = None
         self._since.setdefault(step.name, time.monotonic())
-        where, how = step.spec.process.span, running.end if running else why
-        if found := running and ill(running, where):
-            self._fail(step.name, found)
-        elif running is None or running.state not in ALIVE:
+        if running is None or running.state not in ALIVE:
+            where, how = step.spec.process.span, running.end if running else why
             self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
         else:
             within = f"{step.spec.process.ready.within:g}"
-            reason = await why_not(step.spec, running)
-            self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=within, why=reason))
+            self._fail(step.name, await unready(step.spec, running, within, self._restarts_before(step)))
 
     async def _report_late(self, step: PlanStep) -> None:
         """Reports a process that was pending when the time limit expired."""
         assert step.spec
-        why = await why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
-        where = step.spec.process.span
-        self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
+        running = await self._watch.of(step.name)(time.monotonic() - RECENT)
+        self._fail(step.name, await unready(step.spec, running, self._limit, self._restarts_before(step)))
+
+    def _restarts_before(self, step: PlanStep) -> int:
+        """The restarts of a process that goes on, before its wait began. A start counts anew."""
+        return step.running.restarts if step.running and step.name not in self._outcome.began else 0
 
     def _fail(self, name: str, reason: Diagnostic) -> None:
         self._outcome.failed[name] = reason

@@ -105,7 +105,7 @@ class Engine(Protocol):
     async def open(self, network: Network, *, create: bool) -> bool:
         """Connects to what runs the network; with `create`, starts that if it is absent. Returns whether it is
         connected: if not, no process of the network runs, and only `close` may be called. May raise
-        EngineHangs, too."""
+        EngineHangs, and NotOwn if another user runs it, too."""
 
     async def observe(self, *, use: bool = False) -> dict[str, Running]:
         """The actual state of all processes that were passed to `prepare` and not to `forget`. With `use`, memory and

@@ -37,8 +37,11 @@ def result_data(result: Result) -> dict[str, object]:
     ready = [name for name in outcome.began if name not in outcome.failed]
     return {
         "plan": plan_steps(result.plan),
-        "result": {"ready": ready, "failed": list(outcome.failed), "skipped": outcome.skipped, "undone": result.undone},
-    }
+        "result": {
+            "ready": ready, "failed": list(outcome.failed), "skipped": outcome.skipped, "undone": result.undone,
+            "not_restored": result.not_restored,
+        },
+    }  # fmt: skip
 
 
 def state_in_words(one: Status) -> str:

@@ -10,6 +10,7 @@ from robocomp_yaml.deploy import folder, registered
 from robocomp_yaml.deploy.engines import LOCAL
 from robocomp_yaml.deploy.install import installed as records
 from robocomp_yaml.deploy.registered import RegisteredDeployment
+from robocomp_yaml.diag.terminal import typed
 
 
 class ListedDeployment(msgspec.Struct, frozen=True):
@@ -47,6 +48,15 @@ def _listed(one: RegisteredDeployment, state: str, installed: tuple[str, ...]) -
 
 def has_document(one: RegisteredDeployment) -> bool:
     return os.path.isfile(one.document) and folder.deployment_in(one.document) == one.name
+
+
+def hint_without_document(folder: str) -> str:
+    """How to see a deployment that runs, and whose document was below this folder and is gone; '' if there is none."""
+    top = os.path.join(os.path.realpath(folder), "")
+    gone = [one for one in registered.every() if os.path.realpath(one.document).startswith(top)]
+    name = next((one.name for one in gone if not has_document(one) and runs(one)), "")
+    status = typed("rcyaml", "deploy", "status", name)
+    return f"{name} runs here, and its document is gone: `{status}` shows its ports" if name else ""
 
 
 def _state(one: RegisteredDeployment) -> str:

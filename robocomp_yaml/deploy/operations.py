@@ -34,12 +34,14 @@ SHOWN_LINES = 10
 
 
 class Result(msgspec.Struct):
-    """The result of `up`. `undone` is what was done after a failure (STOP_THEM, ROLL_BACK or KEEP_GOING), else ''."""
+    """The result of `up`. `undone` is what was done after a failure (STOP_THEM, ROLL_BACK or KEEP_GOING), else ''.
+    `not_restored` are the processes that a rollback started again, or should have, and that are not ready."""
 
     plan: Plan
     outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
     diagnostics: list[Diagnostic] = []
     undone: str = ""
+    not_restored: list[str] = []
 
 
 Choose = Callable[[Result], Awaitable[str]]
@@ -147,6 +149,7 @@ async def _undo(
         await stop_all(engine, [now[name] for name in result.outcome.began if name in now], report)
     elif result.undone == ROLL_BACK:
         again = await carry_out(engine, undo(result.plan, before, now), report, keep_going=True)
+        result.not_restored = [*again.failed, *again.skipped]
         for name, reason in again.failed.items():
             # The spec that an engine keeps of a process has no location.
             result.diagnostics.append(replace(reason, span=network.span_of(name)))

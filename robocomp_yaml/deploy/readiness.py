@@ -8,12 +8,16 @@ from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 from contextlib import aclosing, suppress
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, DeployFailed, Engine, Line, Running, of_last_run
 from robocomp_yaml.deploy.patterns import PatternTooSlow, search
+from robocomp_yaml.deploy.plan import ill
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, RUNNING, SILENT
 from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
 
 if TYPE_CHECKING:
@@ -67,10 +71,10 @@ def _hint_for_127(spec: ProcessSpec) -> str:
 
 async def until_ready(
     engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State,
-    others: Collection[asyncio.Task[bool]] = (),
+    others: Collection[asyncio.Task[bool]] = (), restarts: int = 0,
 ) -> None:  # fmt: skip
-    """Waits until a process that was just started is ready. Raises DeployFailed if it ends before, or takes too long.
-    `lines` are its output from the start. Its time begins when the `others` are done, for which it waits."""
+    """Waits until a process is ready. Raises DeployFailed if it ends before, or takes too long. `lines` are its output
+    from now on. Its time begins when the `others` are done, for which it waits. `restarts` are those before."""
     end = asyncio.create_task(_until_it_ends(spec, state))
     ready = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
     try:
@@ -87,8 +91,7 @@ async def until_ready(
             how = end.result()
             hint = _hint_for_127(spec) if "exit code 127" in how else ""
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
-        why, within = await why_not(spec, running), f"{spec.process.ready.within:g}"
-        raise DeployFailed(deploying.NOT_READY.at(spec.process.span, name=spec.name, within=within, why=why))
+        raise DeployFailed(await unready(spec, running, f"{spec.process.ready.within:g}", restarts))
     finally:
         for task in (end, ready):
             task.cancel()
@@ -206,10 +209,20 @@ def _matches(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and search(pattern, text)
 
 
-async def why_not(spec: ProcessSpec, running: Running | None) -> str:
-    """Why a process that was started is not ready."""
-    if running and running.restarts:
-        return f"it ended in the meantime: {running.end}"
+async def unready(spec: ProcessSpec, running: Running | None, within: object, restarts: int) -> Diagnostic:
+    """The diagnostic for a process that is not ready in time. Of one that ends again and again or is not alive, it is
+    the one of `plan`: whatever else it lacks follows from that."""
+    if running and (found := ill(running, spec.process.span)):
+        return found
+    why = await _why_not(spec, running, restarts)
+    return deploying.NOT_READY.at(spec.process.span, name=spec.name, within=within, why=why)
+
+
+async def _why_not(spec: ProcessSpec, running: Running | None, restarts: int = 0) -> str:
+    """Why a process is not ready, for which somebody waits since it had been restarted so many times: an earlier end is
+    no reason any more."""
+    if running and running.restarts > restarts:
+        return f"it ended in the meantime: {replace(running, restarts=running.restarts - restarts).end}"
     own = await own_state(spec) if spec.process.ready.pings else None
     if own is not None and not own.is_running:
         from robocomp_yaml.wire.introspection import WAITING

@@ -18,6 +18,7 @@ from robocomp_yaml.deploy import ice_call, introspection
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.ice_call import PLAIN, SECURE
 from robocomp_yaml.deploy.introspection import NoFacet, OwnState
+from robocomp_yaml.deploy.ownership import NotOwn
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.network.network import TOPIC, Network, Process
 from robocomp_yaml.wire import introspection as wire
@@ -131,7 +132,7 @@ async def samples(
 ) -> AsyncGenerator[NetworkSample, None]:
     """A sample each so many seconds, for ever; without `names`, of all processes. The first one has no rates, and the
     second one follows after at most a second. If the engine does not answer, it is
-    opened again each time, and components are still asked."""
+    opened again each time, and components are still asked. Raises NotOwn."""
     session, asked, before = _Session(engine_of, network), _Asked(_SECTIONS), dict[str, _Reading]()
     pause = min(every, FIRST)
     try:
@@ -196,6 +197,8 @@ class _Session:
             notes = [note.message for note in self._engine.notes]
             await self.close()
             return {}, " ".join(notes)
+        except NotOwn:
+            raise  # nothing of it can be seen, however long one waits
         except DeployFailed as error:
             await self.close()
             return {}, error.diagnostic.message

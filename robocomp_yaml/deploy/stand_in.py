@@ -11,6 +11,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import history, registered
 from robocomp_yaml.deploy.engine import EngineHangs
 from robocomp_yaml.deploy.engines import LOCAL, make_engine
+from robocomp_yaml.deploy.ownership import NotOwn
 from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
 
 
@@ -36,13 +37,13 @@ def stand_in(path: str) -> tuple[Network, str] | None:
 
 
 async def _with_processes(network: Network, name: str) -> Network | None:
-    """The network with what runs; None if nothing does. What does not answer may still be ended: then it has no
-    processes."""
+    """The network with what runs; None if nothing does. What does not answer may still be ended, and that of another
+    user is refused later: then it has no processes."""
     engine = make_engine(name, network)
     try:
         if not await engine.open(network, create=False):
             return None
-    except EngineHangs:
+    except (EngineHangs, NotOwn):
         return network
     specs = {process: one.spec for process, one in (await engine.observe()).items() if one.spec}
     await engine.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import time
 from collections.abc import Callable
@@ -104,3 +105,21 @@ def test_it_is_only_told(rcyaml: Rcyaml, lamp: Path) -> None:
     until(lambda: status(rcyaml)["ready"], lambda: logs(rcyaml))
     assert status(rcyaml)["restarts"] == 0 and "rcyaml: alive again" in logs(rcyaml)
     assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
+
+
+def test_plan_and_up_name_what_does_not_answer(rcyaml: Rcyaml, lamp: Path) -> None:
+    told = DOCUMENT.replace("2 s}", "2 s, then: tell}").replace("ready: 20 s", "ready: 2 s")
+    (lamp.parent / "robot.ddsl.yaml").write_text(told)
+    assert rcyaml("deploy", "up", "robot.ddsl.yaml").exit_code == 0
+    pid = status(rcyaml)["pid"]
+    time.sleep(1.2)  # it has answered once: before that, it may take a minute
+    os.kill(pid, signal.SIGSTOP)  # `seen.status` asks the component itself, and would wait
+    try:
+        until(lambda: "not alive" in rcyaml("deploy", "status", "robot.ddsl.yaml").stdout, "it is seen")
+        for command in ("plan", "up"):
+            said = rcyaml("deploy", command, "robot.ddsl.yaml")
+            assert said.exit_code == 1 and "error[RC7042]: 'lamp' runs and is not alive: " in said.stderr, said.stderr
+            assert "`rcyaml deploy restart robot.ddsl.yaml lamp` starts it again" in said.stderr
+    finally:
+        os.kill(pid, signal.SIGCONT)
+        assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import pty
@@ -57,6 +58,15 @@ def test_up_status_and_down(robot: Path, rcyaml: Rcyaml) -> None:
     assert "base | hello\n" in deploy(rcyaml, "logs").stdout
     assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as desired\n"
     assert deploy(rcyaml, "down").stdout == "arm   stopped\nbase  stopped\n"
+    assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
+
+
+def test_down_of_what_does_not_run_names_it(robot: Path, rcyaml: Rcyaml) -> None:
+    deploy(rcyaml, "up")
+    assert deploy(rcyaml, "down", "arm").stdout == "arm   stopped\n"
+    assert deploy(rcyaml, "down", "arm").stdout == "Robot: arm was not running\n", "base runs"
+    assert deploy(rcyaml, "down").stdout == "base  stopped\n"
+    assert deploy(rcyaml, "down", "arm", "base").stdout == "Robot: base, arm were not running\n"
     assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
 
 
@@ -138,7 +148,8 @@ def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
 
     plan = data("plan")["plan"]
     assert [(step["name"], step["action"]) for step in plan] == [("base", "start"), ("arm", "start")]
-    assert data("up")["result"] == {"ready": ["base", "arm"], "failed": [], "skipped": [], "undone": ""}
+    result = {"ready": ["base", "arm"], "failed": [], "skipped": [], "undone": "", "not_restored": []}
+    assert data("up")["result"] == result
     processes = data("status")["processes"]
     assert all(one["ready"] and one["pid"] > 1 and one["memory"] > 0 for one in processes)
     lines = deploy(rcyaml, "logs", "base", "--format", "json").stdout.splitlines()
@@ -447,18 +458,45 @@ def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
     assert "error[RC7008]: 'base' runs on the host 'moon' (nowhere.invalid)" in result.stderr
 
 
-@pytest.mark.parametrize("command", ["plan", "up", "status", "logs", "down"])
-def test_the_deployment_of_another_user(
-    robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch, command: str
-) -> None:
-    """`status` of another user does not say that nothing runs."""
+@pytest.fixture
+def of_another_user(robot: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The name of the user whose deployment it is, for the one who calls the commands."""
     (robot / ".rcyaml" / "deployments" / "Robot").mkdir(parents=True)
     owner, access = os.getuid(), os.access
     monkeypatch.setattr(os, "getuid", lambda: owner + 1)
     monkeypatch.setattr(os, "access", lambda path, mode: "/deployments/" not in str(path) and access(path, mode))
-    failed = deploy(rcyaml, command)
-    assert failed.exit_code == 1
-    assert f"it is of the user '{pwd.getpwuid(owner).pw_name}', who alone sees and changes what runs" in failed.stderr
+    return pwd.getpwuid(owner).pw_name
+
+
+UNREADABLE = "deployment: Robot\ncomponents: [\n"
+WITHOUT_DOCUMENT = ["deploy status", "deploy logs", "deploy down", "top --count 2", "top --once"]
+
+
+@pytest.mark.parametrize(
+    ("command", "document"),
+    [
+        *((command, ROBOT) for command in ("deploy plan", "deploy up", *WITHOUT_DOCUMENT)),
+        *((command, UNREADABLE) for command in WITHOUT_DOCUMENT),
+    ],
+)
+def test_the_deployment_of_another_user(
+    robot: Path, rcyaml: Rcyaml, of_another_user: str, command: str, document: str
+) -> None:
+    """`status` of another user does not say that nothing runs, whether the document can be read or not."""
+    (robot / "robot.ddsl.yaml").write_text(document)
+    failed = rcyaml(*command.split(), "robot.ddsl.yaml")
+    assert failed.exit_code == 1 and "error[RC7005]" in failed.stderr and not failed.stdout
+    assert f"it is of the user '{of_another_user}', who alone sees and changes what runs" in failed.stderr
+    assert "documents: " not in failed.stderr, "they are not at fault"
+
+
+def test_the_manager_of_the_deployment_of_another_user(robot: Path, of_another_user: str) -> None:
+    from robocomp_yaml.manager.managed import ManagedDeployment
+    from robocomp_yaml.manager.watching import Watcher
+
+    watcher = Watcher(ManagedDeployment("robot.ddsl.yaml"))
+    asyncio.run(watcher.begin())
+    assert watcher.states == {} and f"it is of the user '{of_another_user}'" in watcher.problem
 
 
 def test_only_one_command_changes_a_deployment_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:

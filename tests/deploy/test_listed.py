@@ -14,6 +14,7 @@ import pytest
 
 from conftest import write_tree
 from processes import kill_left, until
+from robocomp_yaml.api.addresses import Addresses
 from robocomp_yaml.deploy import registered
 from seen import status
 from small_networks import Place, is_alive, readable_by_others
@@ -159,3 +160,22 @@ def test_a_state_folder_that_cannot_be_written_prevents_nothing(
 
 def _status(rcyaml: Rcyaml, root: Path, name: str = "Robot") -> dict[str, dict[str, Any]]:
     return status(rcyaml, f"{root}/.rcyaml/deployments/Robot", name)
+
+
+def test_who_does_not_answer_at_its_own_address_may_run_without_a_document(
+    robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def hint() -> str:
+        return Addresses().peer("lamp.CommonBehavior.getPeriod").not_running
+
+    write_tree(robot, {"lamp/lamp.cdsl.yaml": "component: Lamp\nlanguage: python\n"})
+    monkeypatch.chdir(robot)
+    alone = "start it with `rcyaml run lamp`"
+    assert hint() == alone, "the document is there"
+    (robot / "robot.ddsl.yaml").unlink()
+    gone = "Robot runs here, and its document is gone: `rcyaml deploy status Robot` shows its ports"
+    assert hint() == f"{gone}; or {alone}"
+    monkeypatch.chdir(robot / "lamp")
+    assert rcyaml("deploy", "down", "Robot").exit_code == 0
+    monkeypatch.chdir(robot)
+    assert hint() == alone

@@ -135,3 +135,17 @@ def test_an_unstable_start_that_recovers_is_ready(robot: Robot) -> None:
     robot.deploy("up")
     assert robot.of()["restarts"] == 2
     robot.deploy("status")
+
+
+def test_an_earlier_crash_is_not_why_a_process_is_not_ready_now(robot: Robot) -> None:
+    write_tree(robot.root, {"ok": ""})
+    script = json.dumps("test -e crashed || { touch crashed; sleep 1; exit 3; }; exec sleep 600")
+    robot.write(
+        f"laser: {{program: sh, args: [-c, {script}], role: server, ready: {{command: [test, -e, ok], within: 2 s}}}}"
+    )
+    robot.deploy("up")
+    robot.until(lambda now: now["restarts"] == 1 and now["ready"], "it was restarted")
+    (robot.root / "ok").unlink()
+    why = "`test -e ok` did not succeed"
+    assert f"running, not ready: {why}" in robot.deploy("status", code=1)
+    assert f"'laser' was not ready within 2 s: {why}" in robot.deploy("up", code=1)

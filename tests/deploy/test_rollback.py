@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -89,3 +90,27 @@ def test_secrets_of_earlier_configurations_are_for_the_owner_only(robot: Robot) 
     robot.deploy("up")
     (found,) = robot.root.rglob("history.json")
     assert found.stat().st_mode & 0o077 == 0
+
+
+def test_a_rollback_that_fails_too_says_so(robot: Robot) -> None:
+    """Of `up` and of `restart`; what was not restarted meanwhile goes on."""
+
+    def write(value: str) -> None:
+        once = f'"test -e once || exit 4; exec sleep 600", "{value}"'
+        robot.write(
+            f'laser: {{program: sh, args: [-c, {once}], restart: "no", ready: 2 s}}',
+            'camera: {program: sleep, args: ["600"], after: [laser]}',
+        )
+
+    write_tree(robot.root, {"once": ""})
+    write("1")
+    robot.deploy("up")
+    (robot.root / "once").unlink()
+    write("2")
+    said = robot.deploy("up", "--on-failure", "rollback", code=1)
+    assert "Robot: failed; the rollback failed, too: laser is not ready\n" in said
+    write_tree(robot.root, {"once": ""})
+    robot.deploy("up")
+    (robot.root / "once").unlink()
+    found = json.loads(robot.deploy("restart", "--on-failure", "rollback", "--format", "json", "laser", code=1))
+    assert (found["result"]["undone"], found["result"]["not_restored"]) == ("rollback", ["laser"])

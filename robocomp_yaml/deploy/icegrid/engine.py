@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import ownership, registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.here import is_near, local_host
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
@@ -72,6 +72,7 @@ class IceGridEngine:
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
     async def open(self, network: Network, *, create: bool) -> bool:
+        ownership.require(network)
         self._network, self._files = network, GridFiles(network.folder)
         if lacking := of_hosts.missing():
             raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))

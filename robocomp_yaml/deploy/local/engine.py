@@ -12,7 +12,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import liveness, registered
+from robocomp_yaml.deploy import liveness, ownership, registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import HALTED, KILLED, STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
 from robocomp_yaml.deploy.local import client, procfs, record
@@ -53,6 +53,7 @@ class LocalEngine:
         self._has_settled = False  # after the first observation, all stops are those of this command
 
     async def open(self, network: Network, *, create: bool) -> bool:
+        ownership.require(network)
         self._network = network
         if record.continue_halted(network.folder):
             self.notes.append(deploying.NOT_SUPERVISED.at(Span(network.path), what=HALTED))

@@ -11,7 +11,7 @@ from engine_in_memory import InMemory, network, process, running
 from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, undo
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, SHOWN_LINES, STOP_THEM, Status, end_if_idle, status
-from robocomp_yaml.deploy.plan import CHANGE, START, STOP, plan
+from robocomp_yaml.deploy.plan import CHANGE, START, STOP, plan, unhealthy
 from robocomp_yaml.network.network import Readiness
 
 MOTORS, BASE, ARM = process("motors"), process("base", "motors"), process("arm", "base")
@@ -49,6 +49,33 @@ def test_a_process_that_ends_right_after_it_was_ready_has_failed(state: str | No
     assert [(one.code, one.message) for one in result.diagnostics] == [
         ("RC7004", f"'motors' ended before it was ready: {how}")
     ]
+
+
+@pytest.mark.parametrize("is_late", [False, True])
+def test_an_end_before_this_up_is_not_why_a_process_is_not_ready(is_late: bool) -> None:
+    """It was restarted, and has been ready since; what fails now is something else."""
+    crashed = running(MOTORS, restarts=1, last_exit="exit code 3")
+    asked = replace(MOTORS, ready=replace(MOTORS.ready, within=9 if is_late else 0.2))
+    engine = InMemory(crashed, silent="motors")
+    result = engine.up(network(asked), seconds=0.2 if is_late else None)
+    assert result.outcome.failed["motors"].message == "'motors' was not ready within 0.2 s: `ask` did not succeed"
+    engine = InMemory(crashed, silent="motors")
+    engine.crashes = {"motors"}
+    result = engine.up(network(asked), seconds=0.2 if is_late else None)
+    assert "it ended in the meantime: exit code 4, after 1 restart" in result.outcome.failed["motors"].message
+
+
+@pytest.mark.parametrize("is_late", [False, True])
+@pytest.mark.parametrize(
+    ("facts", "code"), [({"not_alive": "it is halted"}, "RC7042"), ({"spread": 20.0, "restarts": 3}, "RC7040")]
+)
+def test_what_no_step_helps_is_named_as_by_plan(facts: dict[str, object], code: str, is_late: bool) -> None:
+    """Also if its condition does not hold either, which follows from that."""
+    asked = replace(MOTORS, ready=replace(MOTORS.ready, within=9 if is_late else 0.2))
+    engine = InMemory(running(asked, **facts), silent="motors")
+    (planned,) = unhealthy(plan(network(asked), engine.now))
+    failed = engine.up(network(asked), seconds=0.2 if is_late else None).outcome.failed["motors"]
+    assert failed == planned and failed.code == code
 
 
 def test_an_unchanged_process_goes_on() -> None:
@@ -278,6 +305,7 @@ def test_a_failed_rollback_is_reported_at_the_location_in_the_document() -> None
     engine = InMemory(running(MOTORS), ending="motors")
     result = engine.up(network(replace(MOTORS, cwd="/tmp")), on_failure=ROLL_BACK)
     assert [found.span.line for found in result.diagnostics] == [len("motors")] * 2
+    assert result.not_restored == ["motors"]
     gone = InMemory(running(MOTORS), running(CAMERA), ending="motors arm")
     told = gone.up(network(ARM, CAMERA), on_failure=ROLL_BACK).diagnostics
     assert [(found.span.file, found.span.line) for found in told] == [("n.ddsl.yaml", 3), ("/n.ddsl.yaml", 1)]
