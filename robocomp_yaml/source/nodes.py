@@ -269,7 +269,7 @@ def core(lexeme: str) -> object:
     for prefix, base in (("0x", 16), ("0o", 8)):
         if lexeme.startswith(prefix):
             try:
-                return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
+                return int(lexeme[2:], base) if lexeme.isascii() and lexeme[2:].isalnum() else lexeme
             except ValueError:
                 return lexeme
     return lexeme

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from robocomp_yaml.source.nodes import core
 from robocomp_yaml.source.text import MAX_SCALAR
 from robocomp_yaml.source.tree import Mapping, parse
 
@@ -138,3 +139,12 @@ def test_a_last_line_without_an_end_is_the_last_one(text: str) -> None:
     assert root is not None
     lines = text.replace("\r", "\n").split("\n")
     assert (root.span.end_line, root.span.end_column) == (len(lines), len(lines[-1]) + 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("0x1F", 31), ("0o17", 15), *((text, text) for text in ("0x1_F", "0x", "0o8", "0x\u0661\u0662", "0o\u0667"))],
+)
+def test_numbers_in_other_bases_have_their_digits_alone(text: str, value: object) -> None:
+    """Python's `int` also reads underlines, and the digits of other scripts."""
+    assert core(text) == value
