@@ -293,9 +293,9 @@ class Deployment:
         it is called with each line instead; with `follow`, also with each new line, until it raises. `since` is a time
         in UTC as lines have it, `pattern` a regular expression: other lines are omitted. Raises Refused if the pattern
         is none, or takes too long."""
-        chosen = self.chosen(names) or self.enabled
         from robocomp_yaml.deploy.log_filter import LogFilter, selected
 
+        chosen = self.chosen(names) or self.enabled
         chosen_lines, found = LogFilter(since, pattern), list[Line]()
 
         async def work() -> None:

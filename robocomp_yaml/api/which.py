@@ -136,8 +136,8 @@ def deployment(path: str, include: tuple[str, ...]) -> str:
 
 
 def root_around(document: str) -> str:
-    """The folder whose documents are read beside a deployment, '' for none: the workspace of the working folder, else
-    that of the deployment. The working folder can be any, with a hundred thousand folders below it."""
+    """The folder whose documents are read beside a deployment ('': there is none): the workspace of the working folder,
+    else that of the deployment. Any other working folder can have a hundred thousand folders below it."""
     from robocomp_yaml.link.workspace import root_above
 
     beside = os.path.dirname(document)

@@ -218,7 +218,7 @@ async def unready(spec: ProcessSpec, running: Running | None, within: object, re
     return deploying.NOT_READY.at(spec.process.span, name=spec.name, within=within, why=why)
 
 
-async def _why_not(spec: ProcessSpec, running: Running | None, restarts: int = 0) -> str:
+async def _why_not(spec: ProcessSpec, running: Running | None, restarts: int) -> str:
     """Why a process is not ready, for which somebody waits since it had been restarted so many times: an earlier end is
     no reason any more."""
     if running and running.restarts > restarts:

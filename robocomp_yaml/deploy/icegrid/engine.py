@@ -142,7 +142,7 @@ class IceGridEngine:
         if self._nodes:
             if not found:  # while they start; `stage` reports a failure
                 with contextlib.suppress(DeployFailed):
-                    self._early = await self._call("", "prepared", self._stage_near, specs)
+                    await self._call("", "prepared", self._stage_near, specs)
             await asyncio.shield(self._nodes)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
@@ -174,15 +174,15 @@ class IceGridEngine:
         running = {name: spec for name, spec in self._specs.items() if spec and name in self._desired}
         far_space.reserve(self._files, specs, running, partial(self._run, self._reached()))
 
-    def _stage_near(self, specs: Sequence[ProcessSpec]) -> dict[str, str]:
-        """Stages the configurations for this machine, and space for the engine's own files, unless that was done early.
-        Returns all staged files."""
+    def _stage_near(self, specs: Sequence[ProcessSpec]) -> None:
+        """Stages the configurations for this machine, and space for the engine's own files, unless they are staged."""
         self._has_staged = True
         files = {path: text for spec in specs if is_near(spec) for path, text in spec.config_files.items()}
         files[_RESERVE] = " " * _RESERVED
         if files != self._early:
+            self._early = {}  # a failure leaves nothing staged
             own_folder.stage(self._files.folder, files)
-        return files
+            self._early = files
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "deployed", self._prepare, specs)
