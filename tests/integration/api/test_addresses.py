@@ -168,3 +168,16 @@ def test_a_port_of_the_user_stays_the_users() -> None:
             assert proxy(Addresses(), "lips.Lens.focus") == f"lens:tcp -h 127.0.0.1 -p {port}" != default
             api.load(".").compile().apply()
     assert config.read_text(encoding="utf-8").count("12346") == 1
+
+
+def test_a_deployment_from_elsewhere_comes_with_its_own_workspace(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """A working folder that is in no workspace is not read: there can be a whole disk below it."""
+    write_tree(tmp_path, {"head.ddsl.yaml": DEPLOYMENT, "ear/ear.cdsl.yaml": CDSL.replace("Eye\n", "Ear\n", 1)})
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    write_tree(elsewhere, {"x.cdsl.yaml": "component: Stranger\nlanguage: python\n"})
+    monkeypatch.chdir(elsewhere)
+    assert "Stranger" in Addresses().names()
+    names = Addresses(str(tmp_path / "head.ddsl.yaml")).names()
+    assert {"eye", "Ear"} <= {*names} and "Stranger" not in names
